@@ -1,0 +1,34 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+
+#include "block_world/scene.h"
+
+namespace block_world
+{
+/// A scene file that cannot be used; what() reads "file:line: key: reason".
+class SceneFileError : public std::runtime_error
+{
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/// What a command line or a node puts in place of the file's values.
+struct SceneOverrides
+{
+  std::optional<int> count;         ///< build only the first blocks
+  std::optional<double> tolerance;  ///< m
+};
+
+/// Reads a scene file and completes it (completeScene). Throws SceneFileError with file, line, key and reason.
+/// Only the tolerance stays as given: World raises it where it must, and says so in its notes.
+Scene loadSceneFile(const std::string& path, const SceneOverrides& overrides = SceneOverrides());
+/// The same from text; name stands for the file in error messages.
+Scene loadSceneText(const std::string& text, const std::string& name = "scene",
+                    const SceneOverrides& overrides = SceneOverrides());
+/// A YAML text that loads back to the same scene, numbers with 17 significant digits.
+std::string writeScene(const Scene& scene);
+
+}  // namespace block_world

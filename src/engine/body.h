@@ -1,0 +1,93 @@
+#pragma once
+
+#include <vector>
+
+#include "block_world/block.h"
+#include "block_world/time.h"
+#include "block_world/world.h"
+#include "geometry.h"
+#include "series.h"
+
+namespace block_world
+{
+/// Exact motion of one body from `start` on: three polynomials in s = t - start, as true as rounding up to `horizon`.
+struct Arc
+{
+  Time start;
+  double horizon = std::numeric_limits<double>::infinity();  ///< s
+  Time end = Time::infinity();                               ///< start + horizon
+  int degree = 0;
+  Series x{}, y{}, angle{};
+  /// Bounds of the third derivatives over the horizon (m/s^3, rad/s^3); 0 for parabolas.
+  double jerk = 0.0, angular_jerk = 0.0;
+};
+
+/// A body's motion at one instant.
+struct Snapshot
+{
+  Vec2 position = Vec2::Zero(), velocity = Vec2::Zero(), acceleration = Vec2::Zero();
+  double angle = 0.0, omega = 0.0, alpha = 0.0;
+};
+
+/// A zero-length spring held by the user: force -k d - c d', d from the anchor to the attachment.
+struct MouseSpring
+{
+  bool active = false;
+  Vec2 attach = Vec2::Zero(), anchor = Vec2::Zero();
+  double stiffness = 0.0, damping = 0.0;
+  Time until = Time::infinity();
+};
+
+/// A block, or a wall (a half-plane without vertices), with everything that acts on it.
+struct Body
+{
+  std::string name;
+  Polygon shape;
+  bool fixed = true;
+  double mass = 0.0, inertia = 0.0;
+  double inverse_mass = 0.0, inverse_inertia = 0.0;  ///< 0 for what cannot move
+  double elasticity = 1.0;
+
+  std::vector<Thruster> thrusters;
+  std::vector<double> levels;
+  Time thrust_until = Time::infinity();
+  Vec2 wrench_force = Vec2::Zero();  ///< body axes
+  double wrench_torque = 0.0;
+  Vec2 push = Vec2::Zero();  ///< thrusters and wrench together, body axes
+  double twist = 0.0;        ///< and their torque
+  MouseSpring mouse;
+  std::vector<int> springs;  ///< scene springs with an end on this body
+
+  Arc arc;
+  int island = -1;         ///< lowest index among the bodies that move as one with this one
+  std::vector<int> pairs;  ///< pairs that this body is one of
+
+  bool pushed() const
+  {
+    return push.x() != 0.0 || push.y() != 0.0 || twist != 0.0;
+  }
+  bool sprung() const
+  {
+    return mouse.active || !springs.empty();
+  }
+  Snapshot at(const Time& time) const;
+  BodyState stateAt(const Time& time) const;
+};
+
+/// A scene spring between two bodies by index; second < 0: to_point is a world point.
+struct SpringLink
+{
+  int first = 0, second = -1;
+  Vec2 first_point = Vec2::Zero(), second_point = Vec2::Zero();
+  double stiffness = 0.0, rest_length = 0.0, damping = 0.0;
+};
+
+/// What acts on every body alike.
+struct Field
+{
+  double gravity = 0.0;             ///< m/s^2 along -y
+  double damping = 0.0;             ///< N s/m
+  double rotational_damping = 0.0;  ///< N m s: damping times its rotational ratio
+};
+
+}  // namespace block_world

@@ -1,0 +1,467 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine.h"
+
+namespace block_world
+{
+namespace
+{
+bool finite(const Vec2& v)
+{
+  return std::isfinite(v.x()) && std::isfinite(v.y());
+}
+
+bool negativeOrNotFinite(double value)
+{
+  return !(value >= 0.0) || std::isinf(value);
+}
+}  // namespace
+
+/// Force and torque of the thrusters at their levels and of the wrench, in body axes.
+void World::Engine::refreshPush(Body& body)
+{
+  body.push = body.wrench_force;
+  body.twist = body.wrench_torque;
+  for (std::size_t i = 0; i < body.thrusters.size(); ++i)
+  {
+    const Thruster& thruster = body.thrusters[i];
+    const Vec2 force = body.levels[i] * thruster.strength * thruster.direction;
+    body.push += force;
+    body.twist += cross(thruster.point, force);
+  }
+}
+
+void World::Engine::expiryPromise(int body)
+{
+  const Body& b = bodies[body];
+  promises_.set(expirySlot(body), std::min(b.thrust_until, b.mouse.active ? b.mouse.until : Time::infinity()));
+}
+
+/// The forces on a body changed: new arcs for its island.
+void World::Engine::wake(int body, const Time& time)
+{
+  expiryPromise(body);
+  seeds_.assign(1, body);
+  resolve(time);
+}
+
+void World::Engine::release(Body& body, const Time& time)
+{
+  spring_work_ -= mouseEnergy(body, time);
+  body.mouse = MouseSpring();
+}
+
+/// A timed command of a body ends.
+void World::Engine::expire(int body, const Time& time)
+{
+  // The work done until now belongs to the forces that did it.
+  Body& b = bodies[body];
+  closeIsland(body, time);
+  if (b.thrust_until <= time)
+  {
+    b.levels.assign(b.thrusters.size(), 0.0);
+    b.thrust_until = Time::infinity();
+    refreshPush(b);
+  }
+  if (b.mouse.active && b.mouse.until <= time)
+    release(b, time);
+  wake(body, time);
+}
+
+void World::Engine::applyInputs(const Time& time)
+{
+  while (next_input_ < scene.inputs.size() && input_start_ + scene.inputs[next_input_].time.seconds() <= time)
+  {
+    const Applied applied = applyAt(scene.inputs[next_input_].command, time);
+    if (applied.ok)
+      inputs_done.push_back({ time, applied.command });
+    else
+      notes.push_back("inputs[" + std::to_string(next_input_) + "] refused: " + applied.reason);
+    ++next_input_;
+  }
+  promises_.set(0, next_input_ < scene.inputs.size() ? input_start_ + scene.inputs[next_input_].time.seconds() : Time::infinity());
+}
+
+void World::Engine::pickNearest(SpringCommand& command, const Time& time) const
+{
+  double least = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < block_count; ++i)
+  {
+    if (bodies[i].fixed)
+      continue;
+    const Snapshot now_i = bodies[i].at(time);
+    const Frame frame_i(now_i.position, now_i.angle);
+    const Vec2 target = frame_i.toBody(command.anchor);
+    const Vec2 point = nearestPoint(bodies[i].shape, target);
+    const double distance = (point - target).norm();
+    if (distance < least)
+    {
+      least = distance;
+      command.body = bodies[i].name;
+      command.attach = point;
+    }
+  }
+}
+
+/// Whether a body at a frame would overlap any other by the tolerance or more.
+bool World::Engine::overlaps(int body, const Frame& at, const Time& time, std::string& with) const
+{
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+  {
+    if (static_cast<int>(i) == body)
+      continue;
+    const Snapshot other = bodies[i].at(time);
+    if (separation(bodies[body].shape, at, bodies[i].shape, Frame(other.position, other.angle)) <= -scene.tolerance)
+    {
+      with = bodies[i].name;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Ends the arcs of a body's island and leaves each of its bodies alone, on a straight arc from here, to be resolved anew.
+void World::Engine::dissolve(int body, const Time& time)
+{
+  const std::vector<int> members = islands_[bodies[body].island].bodies;
+  closeIsland(body, time);
+  seeds_.clear();
+  for (int i : members)
+  {
+    promises_.set(islandSlot(i), Time::infinity());
+    islands_[i].bodies.assign(1, i);
+    islands_[i].rests.clear();
+    bodies[i].island = i;
+    for (int pair : bodies[i].pairs)
+      pairs_[pair].resting.clear();
+    seeds_.push_back(i);
+  }
+}
+
+/// Bodies changed in number: everything is built anew from the scene, with the present states, forces and springs of those that stay.
+void World::Engine::rebuild(const Time& time)
+{
+  for (int i = 0; i < block_count; ++i)
+    if (!bodies[i].fixed && bodies[i].island == i)
+      closeIsland(i, time);
+  const std::vector<Body> old(bodies.begin(), bodies.begin() + block_count);
+  const Time input_promise = promises_.time(0);
+  build();
+  promises_.set(0, input_promise);
+  for (int i = 0; i < block_count; ++i)
+  {
+    Body& body = bodies[i];
+    body.arc.start = time;
+    if (body.fixed)
+      continue;
+    BodyState state;
+    const Block& block = scene.blocks[i];
+    state.position = block.position;
+    state.angle = block.angle;
+    state.velocity = block.velocity;
+    state.omega = block.omega;
+    for (const Body& former : old)
+    {
+      if (former.name != body.name)
+        continue;
+      state = former.stateAt(time);
+      body.levels = former.levels;
+      body.thrust_until = former.thrust_until;
+      body.wrench_force = former.wrench_force;
+      body.wrench_torque = former.wrench_torque;
+      body.mouse = former.mouse;
+      refreshPush(body);
+    }
+    putAt(i, state, time);
+    body.island = i;
+    islands_[i].bodies.assign(1, i);
+  }
+  resolveAll(time);
+  for (int i = 0; i < block_count; ++i)
+    if (!bodies[i].fixed)
+      expiryPromise(i);
+}
+
+Applied World::Engine::apply(const Command& command)
+{
+  return applyAt(command, now);
+}
+
+/// One overload a command; each checks everything before it changes anything.
+struct World::Engine::Handler
+{
+  Engine& engine;
+  Time time;
+  Applied result;
+
+  void refuse(const std::string& reason)
+  {
+    result.reason = reason;
+  }
+
+  /// Index of a movable block; -1 after a refusal.
+  int movable(const std::string& name)
+  {
+    for (int i = 0; i < engine.block_count; ++i)
+      if (engine.bodies[i].name == name)
+      {
+        if (!engine.bodies[i].fixed)
+          return i;
+        refuse("body: '" + name + "' is fixed");
+        return -1;
+      }
+    refuse("body: there is no block '" + name + "'");
+    return -1;
+  }
+
+  void operator()(const ThrustCommand& c)
+  {
+    const int i = movable(c.body);
+    if (i < 0)
+      return;
+    Body& body = engine.bodies[i];
+    if (c.levels.size() != body.thrusters.size())
+      return refuse("levels: '" + c.body + "' has " + std::to_string(body.thrusters.size()) + " thrusters, not " +
+                    std::to_string(c.levels.size()));
+    for (std::size_t k = 0; k < c.levels.size(); ++k)
+      if (!(c.levels[k] >= 0.0 && c.levels[k] <= 1.0))
+        return refuse("levels[" + std::to_string(k) + "]: not within 0..1");
+    if (negativeOrNotFinite(c.duration))
+      return refuse("duration: negative or not finite");
+    engine.closeIsland(i, time);
+    body.levels = c.levels;
+    if (c.duration == 0.0)
+      body.levels.assign(body.thrusters.size(), 0.0);
+    const bool any = std::any_of(body.levels.begin(), body.levels.end(), [](double level) { return level > 0.0; });
+    body.thrust_until = any ? time + c.duration : Time::infinity();
+    engine.refreshPush(body);
+    engine.wake(i, time);
+    result.ok = true;
+  }
+
+  void operator()(SpringCommand c)
+  {
+    if (!c.active)
+    {
+      if (!c.body.empty() && movable(c.body) < 0)
+        return;
+      for (int i = 0; i < engine.block_count; ++i)
+      {
+        Body& body = engine.bodies[i];
+        if (!body.mouse.active || !(c.body.empty() || c.body == body.name))
+          continue;
+        engine.closeIsland(i, time);
+        engine.release(body, time);
+        engine.wake(i, time);
+      }
+      result.ok = true;
+      return;
+    }
+    if (!finite(c.anchor))
+      return refuse("anchor: not finite");
+    if (!finite(c.attach))
+      return refuse("attach: not finite");
+    if (negativeOrNotFinite(c.stiffness))
+      return refuse("stiffness: negative or not finite");
+    if (negativeOrNotFinite(c.damping))
+      return refuse("damping: negative or not finite");
+    if (negativeOrNotFinite(c.duration))
+      return refuse("duration: negative or not finite");
+    if (c.body.empty())
+    {
+      engine.pickNearest(c, time);
+      if (c.body.empty())
+        return refuse("body: the scene has no movable block");
+      result.command = c;
+    }
+    const int i = movable(c.body);
+    if (i < 0)
+      return;
+    Body& body = engine.bodies[i];
+    engine.closeIsland(i, time);
+    engine.release(body, time);
+    body.mouse.active = true;
+    body.mouse.attach = c.attach;
+    body.mouse.anchor = c.anchor;
+    body.mouse.stiffness = c.stiffness;
+    body.mouse.damping = c.damping;
+    body.mouse.until = c.duration > 0.0 ? time + c.duration : Time::infinity();
+    engine.dissipative_ = engine.dissipative_ || c.damping > 0.0;
+    engine.spring_work_ += engine.mouseEnergy(body, time);
+    engine.wake(i, time);
+    result.ok = true;
+  }
+
+  void operator()(const WrenchCommand& c)
+  {
+    const int i = movable(c.body);
+    if (i < 0)
+      return;
+    if (!finite(c.force))
+      return refuse("force: not finite");
+    if (!std::isfinite(c.torque))
+      return refuse("torque: not finite");
+    Body& body = engine.bodies[i];
+    engine.closeIsland(i, time);
+    body.wrench_force = c.force;
+    body.wrench_torque = c.torque;
+    engine.refreshPush(body);
+    engine.wake(i, time);
+    result.ok = true;
+  }
+
+  void operator()(const SetCommand& c)
+  {
+    if (c.gravity && negativeOrNotFinite(*c.gravity))
+      return refuse("gravity: negative or not finite");
+    if (c.damping && negativeOrNotFinite(*c.damping))
+      return refuse("damping: negative or not finite");
+    if (c.thrust && negativeOrNotFinite(*c.thrust))
+      return refuse("thrust: negative or not finite");
+    if (c.elasticity && !(*c.elasticity >= 0.0 && *c.elasticity <= 1.0))
+      return refuse("elasticity: not within 0..1");
+    if (c.mass && (!(*c.mass > 0.0) || std::isinf(*c.mass)))
+      return refuse("mass: not positive or not finite");
+    if (c.mass && (engine.block_count == 0 || engine.bodies[0].fixed))
+      return refuse("mass: the first block does not move");
+    for (int i = 0; i < engine.block_count; ++i)
+      if (!engine.bodies[i].fixed && engine.bodies[i].island == i)
+        engine.closeIsland(i, time);
+    const double before = engine.storedTotal(time);
+    engine.set(c);
+    engine.command_work_ += engine.storedTotal(time) - before;
+    engine.resolveAll(time);
+    result.ok = true;
+  }
+
+  void operator()(const SetStateCommand& c)
+  {
+    const int i = movable(c.body);
+    if (i < 0)
+      return;
+    if (!finite(c.position) || !std::isfinite(c.angle))
+      return refuse("pose: not finite");
+    if (!finite(c.velocity) || !std::isfinite(c.omega))
+      return refuse("velocity: not finite");
+    std::string with;
+    if (engine.overlaps(i, Frame(c.position, c.angle), time, with))
+      return refuse("pose: '" + c.body + "' would overlap '" + with + "'");
+    const double before = engine.storedTotal(time);
+    engine.dissolve(i, time);
+    BodyState state;
+    state.position = c.position;
+    state.angle = c.angle;
+    state.velocity = c.velocity;
+    state.omega = c.omega;
+    engine.putAt(i, state, time);
+    engine.command_work_ += engine.storedTotal(time) - before;
+    const std::vector<int> seeds = engine.seeds_;
+    for (int body : seeds)
+    {
+      engine.seeds_.assign(1, body);
+      engine.resolve(time);
+    }
+    result.ok = true;
+  }
+
+  void operator()(const SpawnCommand& c)
+  {
+    Scene with = engine.scene;
+    with.blocks.push_back(c.block);
+    // The new block must fit among the others where they are now.
+    for (int i = 0; i < engine.block_count; ++i)
+    {
+      const Snapshot at = engine.bodies[i].at(time);
+      with.blocks[i].position = at.position;
+      with.blocks[i].angle = at.angle;
+    }
+    try
+    {
+      with.inputs.clear();
+      completeScene(with);
+    }
+    catch (const SceneError& error)
+    {
+      return refuse(error.what());
+    }
+    const double before = engine.storedTotal(time);
+    engine.scene.blocks.push_back(with.blocks.back());
+    engine.rebuild(time);
+    engine.command_work_ += engine.storedTotal(time) - before;
+    result.ok = true;
+  }
+
+  void operator()(const DeleteCommand& c)
+  {
+    Scene& scene = engine.scene;
+    const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.name == c.body; });
+    if (block == scene.blocks.end())
+      return refuse("body: there is no block '" + c.body + "'");
+    const double before = engine.storedTotal(time);
+    scene.blocks.erase(block);
+    scene.springs.erase(std::remove_if(scene.springs.begin(), scene.springs.end(),
+                                       [&](const Spring& s) { return s.from_block == c.body || s.to_block == c.body; }),
+                        scene.springs.end());
+    engine.rebuild(time);
+    engine.command_work_ += engine.storedTotal(time) - before;
+    result.ok = true;
+  }
+
+  void operator()(const ResetCommand&)
+  {
+    engine.scene = engine.loaded_;
+    engine.build();
+    engine.start();
+    result.ok = true;
+  }
+};
+
+/// Values were checked.
+void World::Engine::set(const SetCommand& c)
+{
+  scene.gravity = field_.gravity = c.gravity.value_or(scene.gravity);
+  scene.damping = field_.damping = c.damping.value_or(scene.damping);
+  field_.rotational_damping = scene.damping * scene.rotational_damping_ratio;
+  dissipative_ = scene.damping > 0.0;
+  for (const SpringLink& link : links_)
+    dissipative_ = dissipative_ || link.damping > 0.0;
+  for (const Body& body : bodies)
+    dissipative_ = dissipative_ || (body.mouse.active && body.mouse.damping > 0.0);
+  if (c.mass)
+  {
+    scene.blocks[0].mass = *c.mass;
+    Body& body = bodies[0];
+    body.mass = *c.mass;
+    body.inertia = body.mass * body.shape.gyration;
+    body.inverse_mass = 1.0 / body.mass;
+    body.inverse_inertia = 1.0 / body.inertia;
+  }
+  if (c.elasticity)
+  {
+    scene.elasticity = *c.elasticity;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      if (static_cast<int>(i) >= block_count || !scene.blocks[i].elasticity)
+        bodies[i].elasticity = scene.elasticity;
+  }
+  if (c.thrust)
+  {
+    scene.thrust = *c.thrust;
+    for (int i = 0; i < block_count; ++i)
+      if (!bodies[i].fixed && !scene.blocks[i].thrusters)
+      {
+        bodies[i].thrusters = defaultThrusters(scene.blocks[i].vertices, scene.thrust);
+        refreshPush(bodies[i]);
+      }
+  }
+}
+
+Applied World::Engine::applyAt(const Command& command, const Time& time)
+{
+  Handler handler{ *this, time, {} };
+  handler.result.command = command;
+  std::visit(handler, command);
+  return handler.result;
+}
+
+}  // namespace block_world

@@ -1,0 +1,232 @@
+#include "complementarity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace block_world
+{
+bool Cholesky::append(const double* row)
+{
+  const int n = size_;
+  if (lower_.size() < static_cast<std::size_t>((n + 1) * (n + 2) / 2))
+    lower_.resize((n + 1) * (n + 2) / 2 + 64);
+  double pivot = row[n];
+  for (int j = 0; j < n; ++j)
+  {
+    double sum = row[j];
+    for (int k = 0; k < j; ++k)
+      sum -= at(n, k) * at(j, k);
+    at(n, j) = sum / at(j, j);
+    pivot -= at(n, j) * at(n, j);
+  }
+  if (!(pivot > 1e-11 * row[n]))
+    return false;
+  at(n, n) = std::sqrt(pivot);
+  ++size_;
+  return true;
+}
+
+void Cholesky::solve(double* x) const
+{
+  for (int i = 0; i < size_; ++i)
+  {
+    for (int k = 0; k < i; ++k)
+      x[i] -= at(i, k) * x[k];
+    x[i] /= at(i, i);
+  }
+  for (int i = size_ - 1; i >= 0; --i)
+  {
+    x[i] /= at(i, i);
+    for (int k = 0; k < i; ++k)
+      x[k] -= at(i, k) * x[i];
+  }
+}
+
+/// (A l + b)_i, and the sum of the absolute values of its terms, which its rounding error is proportional to.
+double Complementarity::gradient(int i, double& magnitude) const
+{
+  double sum = (*b_)[i];
+  magnitude = std::abs(sum);
+  for (int j : passive_)
+  {
+    const double term = (*a_)((*rows_)[i], (*rows_)[j]) * l_[j];
+    sum += term;
+    magnitude += std::abs(term);
+  }
+  return sum;
+}
+
+/// Row of the passive matrix at a position, in the order of entry.
+bool Complementarity::rowOf(int position, int candidate)
+{
+  row_.resize(position + 1);
+  for (int k = 0; k < position; ++k)
+    row_[k] = (*a_)((*rows_)[candidate], (*rows_)[passive_[k]]);
+  row_[position] = (*a_)((*rows_)[candidate], (*rows_)[candidate]);
+  return factor_.append(row_.data());
+}
+
+void Complementarity::refactor(int from)
+{
+  factor_.truncate(from);
+  for (std::size_t k = from; k < passive_.size();)
+  {
+    if (rowOf(static_cast<int>(k), passive_[k]))
+      ++k;
+    else
+    {
+      // Dependent after all by rounding: it carries nothing.
+      l_[passive_[k]] = 0.0;
+      state_[passive_[k]] = 2;
+      passive_.erase(passive_.begin() + k);
+    }
+  }
+}
+
+/// x = -A_PP^-1 b_P, with one step of iterative refinement.
+void Complementarity::solvePassive(std::vector<double>& x)
+{
+  const std::size_t n = passive_.size();
+  x.resize(n);
+  for (std::size_t k = 0; k < n; ++k)
+    x[k] = -(*b_)[passive_[k]];
+  factor_.solve(x.data());
+  residual_.resize(n);
+  for (std::size_t k = 0; k < n; ++k)
+  {
+    double sum = -(*b_)[passive_[k]];
+    for (std::size_t j = 0; j < n; ++j)
+      sum -= (*a_)((*rows_)[passive_[k]], (*rows_)[passive_[j]]) * x[j];
+    residual_[k] = sum;
+  }
+  factor_.solve(residual_.data());
+  for (std::size_t k = 0; k < n; ++k)
+    x[k] += residual_[k];
+}
+
+/// Moves l towards the minimum over the passive set until that minimum is positive, dropping what reaches zero.
+void Complementarity::settle()
+{
+  while (!passive_.empty())
+  {
+    solvePassive(x_);
+    double step = 1.0;
+    int blocking = -1;
+    for (std::size_t k = 0; k < passive_.size(); ++k)
+    {
+      const double l = l_[passive_[k]];
+      if (x_[k] <= 0.0 && l / (l - x_[k]) < step)
+      {
+        step = l / (l - x_[k]);
+        blocking = static_cast<int>(k);
+      }
+      else if (x_[k] <= 0.0 && l == 0.0)
+      {
+        step = 0.0;
+        blocking = static_cast<int>(k);
+      }
+    }
+    for (std::size_t k = 0; k < passive_.size(); ++k)
+      l_[passive_[k]] += step * (x_[k] - l_[passive_[k]]);
+    if (blocking < 0)
+      return;
+    l_[passive_[blocking]] = 0.0;
+    state_[passive_[blocking]] = 0;
+    passive_.erase(passive_.begin() + blocking);
+    refactor(blocking);
+  }
+}
+
+/// Takes row i into the passive set. A row that depends on the passive ones moves l along the null direction z (A z = 0, z_i = 1) until another
+/// row reaches zero and leaves; where none does, the row is left out.
+bool Complementarity::enter(int i)
+{
+  const int n = static_cast<int>(passive_.size());
+  if (rowOf(n, i))
+  {
+    passive_.push_back(i);
+    state_[i] = 1;
+    return true;
+  }
+  x_.assign(row_.begin(), row_.begin() + n);
+  factor_.solve(x_.data());  // z_P = -A_PP^-1 A_Pi
+  double step = std::numeric_limits<double>::infinity();
+  int blocking = -1;
+  for (int k = 0; k < n; ++k)
+    if (x_[k] > 0.0 && l_[passive_[k]] / x_[k] < step)
+    {
+      step = l_[passive_[k]] / x_[k];
+      blocking = k;
+    }
+  if (blocking < 0)
+  {
+    state_[i] = 2;
+    return false;
+  }
+  for (int k = 0; k < n; ++k)
+    l_[passive_[k]] = std::max(0.0, l_[passive_[k]] - step * x_[k]);
+  l_[passive_[blocking]] = 0.0;
+  state_[passive_[blocking]] = 2;
+  passive_.erase(passive_.begin() + blocking);
+  l_[i] = step;
+  passive_.push_back(i);
+  state_[i] = 1;
+  refactor(blocking);
+  return state_[i] == 1;
+}
+
+void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
+{
+  a_ = &a;
+  rows_ = &rows;
+  b_ = &b;
+  const int n = static_cast<int>(rows.size());
+  l_.assign(n, 0.0);
+  state_.assign(n, 0);
+  passive_.clear();
+  support_.clear();
+  factor_.clear();
+  double scale = 0.0;
+  for (double value : b)
+    scale = std::max(scale, std::abs(value));
+
+  for (int pivots = 0; pivots < 10 * n + 20; ++pivots)
+  {
+    int best = -1;
+    double lowest = 0.0;
+    for (int i = 0; i < n; ++i)
+    {
+      if (state_[i] != 0)
+        continue;
+      double magnitude;
+      const double g = gradient(i, magnitude);
+      if (g < lowest && g < -1e-13 * scale - 1e-14 * magnitude)
+      {
+        lowest = g;
+        best = i;
+      }
+    }
+    if (best < 0)
+      break;
+    if (enter(best))
+    {
+      settle();
+      if (state_[best] == 0)
+        state_[best] = 2;  // entered and left at once: rounding
+      else
+        for (int i = 0; i < n; ++i)
+          if (state_[i] == 2)
+            state_[i] = 0;
+    }
+  }
+
+  double largest = 0.0;
+  for (double value : l_)
+    largest = std::max(largest, value);
+  for (int i = 0; i < n; ++i)
+    if (l_[i] > 1e-12 * largest)
+      support_.push_back(i);
+}
+
+}  // namespace block_world

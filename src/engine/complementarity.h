@@ -1,0 +1,110 @@
+#pragma once
+
+#include <vector>
+
+namespace block_world
+{
+/// Cholesky factor of a growing symmetric positive definite matrix, row by row.
+class Cholesky
+{
+public:
+  void clear()
+  {
+    size_ = 0;
+  }
+  int size() const
+  {
+    return size_;
+  }
+  /// Appends row[0..size()] (the last is the diagonal). Refuses, returning false, a row that depends on the former ones:
+  /// one whose pivot falls below 1e-11 of its diagonal.
+  bool append(const double* row);
+  /// Keeps the first rows only.
+  void truncate(int size)
+  {
+    size_ = size;
+  }
+  /// x = (L L^T)^-1 x.
+  void solve(double* x) const;
+
+private:
+  double& at(int i, int j)
+  {
+    return lower_[i * (i + 1) / 2 + j];
+  }
+  double at(int i, int j) const
+  {
+    return lower_[i * (i + 1) / 2 + j];
+  }
+
+  int size_ = 0;
+  std::vector<double> lower_;  ///< rows of the lower triangle, one after the other
+};
+
+/// Dense symmetric matrix that keeps its memory.
+class SymmetricMatrix
+{
+public:
+  void resize(int size)
+  {
+    size_ = size;
+    entries_.assign(static_cast<std::size_t>(size) * size, 0.0);
+  }
+  int size() const
+  {
+    return size_;
+  }
+  double& operator()(int i, int j)
+  {
+    return entries_[static_cast<std::size_t>(i) * size_ + j];
+  }
+  double operator()(int i, int j) const
+  {
+    return entries_[static_cast<std::size_t>(i) * size_ + j];
+  }
+
+private:
+  int size_ = 0;
+  std::vector<double> entries_;
+};
+
+/// Minimises 1/2 l'A l + b'l over l >= 0 for the rows and columns of A that are named; A is positive semi-definite.
+///
+/// Equivalent: 0 <= l, A l + b >= 0, l.(A l + b) = 0. Active sets after Lawson & Hanson (1974, ch. 23): the passive set stays linearly
+/// independent; a redundant row enters only in exchange for another one. Finite.
+class Complementarity
+{
+public:
+  /// rows: indices into A; b: one value per row. The result is read from value() and support().
+  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b);
+
+  /// l, one value per row of the last solve.
+  const std::vector<double>& value() const
+  {
+    return l_;
+  }
+  /// Positions within rows at which l > 1e-12 of the largest l, ascending: those that carry load. Linearly independent.
+  const std::vector<int>& support() const
+  {
+    return support_;
+  }
+
+private:
+  double gradient(int i, double& magnitude) const;
+  bool enter(int i);
+  void settle();
+  void refactor(int from);
+  void solvePassive(std::vector<double>& x);
+  bool rowOf(int position, int candidate);
+
+  const SymmetricMatrix* a_ = nullptr;
+  const std::vector<int>* rows_ = nullptr;
+  const std::vector<double>* b_ = nullptr;
+  Cholesky factor_;
+  std::vector<int> passive_;
+  std::vector<char> state_;  ///< 0 at zero, 1 passive, 2 redundant for now
+  std::vector<double> l_, x_, residual_, row_;
+  std::vector<int> support_;
+};
+
+}  // namespace block_world

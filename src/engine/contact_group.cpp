@@ -1,0 +1,378 @@
+#include "contact_group.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace block_world
+{
+double ContactGroup::velocityOf(int i) const
+{
+  const Touch& t = touches[i];
+  return normalVelocity(t, members[t.member_a], members[t.member_b]);
+}
+
+/// Equations (7)-(10): the impulse along the normal on a, its opposite on b.
+void ContactGroup::push(int i, double impulse)
+{
+  const Touch& t = touches[i];
+  Member &a = members[t.member_a], &b = members[t.member_b];
+  a.velocity += impulse * a.inverse_mass * t.normal;
+  a.omega += impulse * a.inverse_inertia * cross(t.arm, t.normal);
+  b.velocity -= impulse * b.inverse_mass * t.normal;
+  b.omega -= impulse * b.inverse_inertia * cross(t.reach, t.normal);
+  const auto grow = [&](Size& size, const Member& m, const Vec2& lever) {
+    size.x += std::abs(impulse * m.inverse_mass * t.normal.x());
+    size.y += std::abs(impulse * m.inverse_mass * t.normal.y());
+    size.omega += std::abs(impulse * m.inverse_inertia * cross(lever, t.normal));
+  };
+  grow(sizes_[t.member_a], a, t.arm);
+  grow(sizes_[t.member_b], b, t.reach);
+}
+
+/// A velocity whose parts cancel to rounding is zero: it would only breed turns and drifts too small to mean anything.
+void ContactGroup::clean()
+{
+  constexpr double kCancelled = 64 * 2.220446049250313e-16;
+  for (std::size_t i = 0; i < members.size(); ++i)
+  {
+    Member& m = members[i];
+    if (std::abs(m.velocity.x()) <= kCancelled * sizes_[i].x)
+      m.velocity.x() = 0.0;
+    if (std::abs(m.velocity.y()) <= kCancelled * sizes_[i].y)
+      m.velocity.y() = 0.0;
+    if (std::abs(m.omega) <= kCancelled * sizes_[i].omega)
+      m.omega = 0.0;
+  }
+}
+
+void ContactGroup::prepare()
+{
+  const int n = static_cast<int>(touches.size());
+  gram_.resize(n);
+  sizes_.assign(members.size(), Size());
+  for (int i = 0; i < n; ++i)
+  {
+    for (int j = 0; j <= i; ++j)
+      gram_(i, j) = gram_(j, i) = contactGram(touches[i], touches[j], members);
+    touches[i].approach = velocityOf(i);
+  }
+}
+
+void ContactGroup::scale(const ContactScales& scales)
+{
+  acceleration_scale_ = 0.0;
+  double speed = 0.0;
+  for (const Member& m : members)
+  {
+    if (m.inverse_mass == 0.0)
+      continue;
+    const double gyration = std::sqrt(m.inverse_mass / m.inverse_inertia);
+    acceleration_scale_ = std::max(acceleration_scale_, m.acceleration.norm() + (std::abs(m.alpha) + m.omega * m.omega) * gyration);
+    speed = std::max(speed, m.velocity.norm() + std::abs(m.omega) * gyration);
+  }
+  // Rounding of a velocity that is a difference of larger ones.
+  noise_ = 1e-13 * speed;
+  // A bounce at speed v under the acceleration a rises v^2 / 2a: below sqrt(8 a delta) never more than 4 delta, so that the rest of the
+  // decaying series of bounces is replaced by its limit. A contact that loses nothing has no such limit; there only what the
+  // coordinates cannot resolve is taken away.
+  rest_speed_.resize(touches.size());
+  for (std::size_t i = 0; i < touches.size(); ++i)
+  {
+    const bool lossless = touches[i].elasticity == 1.0 && !scales.dissipative;
+    const double depth = lossless ? scales.resolution : scales.tolerance;
+    rest_speed_[i] = std::max(noise_, std::sqrt(8.0 * depth * acceleration_scale_));
+  }
+}
+
+bool ContactGroup::anyElastic(const std::vector<int>& rows) const
+{
+  return std::any_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity > 0.0; });
+}
+
+/// One stage of reflection (Smith et al. 2012, with the elasticity in every stage): l minimises the kinetic energy after an inelastic impact of the
+/// approaching touches; the impulse is (1 + e) l. For one touch this is equation (11). Returns the energy lost.
+double ContactGroup::reflect(const std::vector<int>& rows)
+{
+  b_.clear();
+  for (int i : rows)
+    b_.push_back(velocityOf(i));
+  solver_.solve(gram_, rows, b_);
+  const std::vector<double>& l = solver_.value();
+
+  // With different elasticities dKE = -1/2 l'(A - E A E) l may be positive: then E is scaled so that it is zero.
+  double plain = 0.0, elastic = 0.0;
+  bool mixed = false;
+  for (int i : rows)
+    mixed = mixed || touches[i].elasticity != touches[rows.front()].elasticity;
+  double share = 1.0;
+  if (mixed)
+  {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      for (std::size_t j = 0; j < rows.size(); ++j)
+      {
+        const double product = l[i] * l[j] * gram_(rows[i], rows[j]);
+        plain += product;
+        elastic += product * touches[rows[i]].elasticity * touches[rows[j]].elasticity;
+      }
+    if (elastic > plain)
+      share = std::sqrt(plain / elastic);
+  }
+
+  double loss = 0.0;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    if (l[k] == 0.0)
+      continue;
+    const double impulse = (1.0 + share * touches[rows[k]].elasticity) * l[k];
+    touches[rows[k]].impulse += impulse;
+    push(rows[k], impulse);
+    loss -= 0.5 * impulse * b_[k];
+  }
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (l[k] != 0.0)
+      loss -= 0.5 * (1.0 + share * touches[rows[k]].elasticity) * l[k] * velocityOf(rows[k]);
+  return loss;
+}
+
+/// Inelastic end. With pulling, the named (independent) touches end at zero velocity exactly; without, they only stop approaching.
+double ContactGroup::stop(const std::vector<int>& rows, bool pulling)
+{
+  if (rows.empty())
+    return 0.0;
+  b_.clear();
+  for (int i : rows)
+    b_.push_back(velocityOf(i));
+  solution_.assign(rows.size(), 0.0);
+  if (pulling)
+  {
+    factor_.clear();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+    {
+      row_.resize(k + 1);
+      for (std::size_t j = 0; j <= k; ++j)
+        row_[j] = gram_(rows[k], rows[j]);
+      if (!factor_.append(row_.data()))
+        return 0.0;
+    }
+    for (int pass = 0; pass < 2; ++pass)
+    {
+      before_.resize(rows.size());
+      for (std::size_t k = 0; k < rows.size(); ++k)
+        before_[k] = -velocityOf(rows[k]);
+      factor_.solve(before_.data());
+      for (std::size_t k = 0; k < rows.size(); ++k)
+      {
+        push(rows[k], before_[k]);
+        solution_[k] += before_[k];
+      }
+    }
+  }
+  else
+  {
+    solver_.solve(gram_, rows, b_);
+    solution_ = solver_.value();
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (solution_[k] != 0.0)
+        push(rows[k], solution_[k]);
+  }
+  double loss = 0.0;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+  {
+    touches[rows[k]].capture += solution_[k];
+    loss -= 0.5 * solution_[k] * (b_[k] + velocityOf(rows[k]));
+  }
+  return loss;
+}
+
+/// Which slow touches the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces.
+void ContactGroup::solveRest()
+{
+  slow_.clear();
+  b_.clear();
+  for (std::size_t i = 0; i < touches.size(); ++i)
+  {
+    touches[i].force = 0.0;
+    if (touches[i].corner || std::abs(velocityOf(static_cast<int>(i))) > rest_speed_[i])
+      continue;
+    slow_.push_back(static_cast<int>(i));
+    b_.push_back(normalAcceleration(touches[i], members[touches[i].member_a], members[touches[i].member_b]));
+  }
+  pressed_.clear();
+  // A free acceleration below the rounding of the accelerations presses nothing.
+  double strongest = 0.0;
+  for (double b : b_)
+    strongest = std::max(strongest, -b);
+  if (strongest <= 1e-14 * acceleration_scale_)
+    return;
+  solver_.solve(gram_, slow_, b_);
+  for (int k : solver_.support())
+  {
+    pressed_.push_back(slow_[k]);
+    touches[slow_[k]].force = solver_.value()[k];
+  }
+}
+
+/// Gordan's alternative: no velocity opens all these touches exactly if some l >= 0, sum l = 1, has l'A l = 0. With c = (1, ..., 1),
+/// min 1/2 l'(A + c c')l - c'l over l >= 0 has the value -1/2 in that case and a larger one otherwise.
+bool ContactGroup::isLocked(const std::vector<int>& rows)
+{
+  const int n = static_cast<int>(rows.size());
+  SymmetricMatrix extended;
+  extended.resize(n);
+  double size = 0.0;
+  for (int i = 0; i < n; ++i)
+    size = std::max(size, gram_(rows[i], rows[i]));
+  std::vector<int> all(n);
+  for (int i = 0; i < n; ++i)
+  {
+    all[i] = i;
+    for (int j = 0; j < n; ++j)
+      extended(i, j) = gram_(rows[i], rows[j]) / size + 1.0;
+  }
+  Complementarity test;
+  test.solve(extended, all, std::vector<double>(n, -1.0));
+  double sum = 0.0;
+  for (double l : test.value())
+    sum += l;
+  return 1.0 - sum < 1e-12;  // the minimum is -sum/2
+}
+
+double ContactGroup::collide(const ContactScales& scales)
+{
+  const int n = static_cast<int>(touches.size());
+  for (Touch& touch : touches)
+  {
+    touch.impulse = touch.capture = touch.force = 0.0;
+    touch.active = false;
+  }
+  scale(scales);
+  all_.clear();
+  for (int i = 0; i < n; ++i)
+    all_.push_back(i);
+
+  double loss = 0.0;
+  bool locked = false;
+  const int cap = 100 * (n + 10);
+  for (int stage = 0; stage < cap; ++stage)
+  {
+    fast_.clear();
+    for (int i = 0; i < n; ++i)
+      if (velocityOf(i) < -rest_speed_[i])
+        fast_.push_back(i);
+    if (fast_.empty())
+    {
+      solveRest();
+      // What approaches slowly without being pressed is no end of a series of bounces: it is reflected like any other.
+      for (int i = 0; i < n; ++i)
+        if (velocityOf(i) < -noise_ && std::find(pressed_.begin(), pressed_.end(), i) == pressed_.end())
+          fast_.push_back(i);
+      if (fast_.empty())
+      {
+        const double captured = stop(pressed_, true);
+        loss += captured;
+        former_ = pressed_;
+        solveRest();
+        bool quiet = pressed_ == former_;
+        for (int i = 0; i < n && quiet; ++i)
+          quiet = !(velocityOf(i) < -std::max(noise_, 1e-15 * rest_speed_[i]));
+        if (quiet)
+          break;
+        continue;
+      }
+    }
+    if (stage == 50)
+      locked = isLocked(all_);
+    if (locked || !anyElastic(fast_) || stage == cap - 1)
+      loss += stop(all_, false);
+    else
+      loss += reflect(fast_);
+  }
+  for (int i : pressed_)
+    touches[i].active = true;
+  clean();
+  return loss;
+}
+
+void ContactGroup::place(Member& member, const Vec2& shift, double turn)
+{
+  member.frame.position += shift;
+  member.angle += turn;
+  member.frame = Frame(member.frame.position, member.angle);
+}
+
+bool ContactGroup::struck() const
+{
+  return std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.impulse != 0.0 || t.capture != 0.0; });
+}
+
+double ContactGroup::holdActive()
+{
+  prepare();
+  pressed_.clear();
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (touches[i].active)
+      pressed_.push_back(static_cast<int>(i));
+  const double loss = stop(pressed_, true);
+  clean();
+  return loss;
+}
+
+double ContactGroup::settlePositions(double resolution, double& loss)
+{
+  // min |dq| in the mass metric with gap + J dq = 0.
+  slow_.clear();
+  b_.clear();
+  double lowest = 0.0;
+  for (std::size_t i = 0; i < touches.size(); ++i)
+  {
+    const Touch& t = touches[i];
+    if (t.corner || !(t.active || t.gap < -resolution))
+      continue;
+    slow_.push_back(static_cast<int>(i));
+    lowest = std::max(lowest, std::abs(t.gap));
+  }
+  if (lowest == 0.0)
+    return 0.0;
+  factor_.clear();
+  pressed_.clear();
+  for (int i : slow_)
+  {
+    row_.resize(pressed_.size() + 1);
+    for (std::size_t j = 0; j < pressed_.size(); ++j)
+      row_[j] = gram_(i, pressed_[j]);
+    row_[pressed_.size()] = gram_(i, i);
+    if (factor_.append(row_.data()))
+      pressed_.push_back(i);
+  }
+  solution_.resize(pressed_.size());
+  for (std::size_t k = 0; k < pressed_.size(); ++k)
+    solution_[k] = -touches[pressed_[k]].gap;
+  factor_.solve(solution_.data());
+
+  struct Move
+  {
+    Vec2 shift = Vec2::Zero();
+    double turn = 0.0;
+  };
+  std::vector<Move> moves(members.size());
+  for (std::size_t k = 0; k < pressed_.size(); ++k)
+  {
+    const Touch& t = touches[pressed_[k]];
+    const Member &a = members[t.member_a], &b = members[t.member_b];
+    moves[t.member_a].shift += solution_[k] * a.inverse_mass * t.normal;
+    moves[t.member_a].turn += solution_[k] * a.inverse_inertia * cross(t.arm, t.normal);
+    moves[t.member_b].shift -= solution_[k] * b.inverse_mass * t.normal;
+    moves[t.member_b].turn -= solution_[k] * b.inverse_inertia * cross(t.reach, t.normal);
+  }
+  for (std::size_t m = 0; m < members.size(); ++m)
+  {
+    Member& member = members[m];
+    if (member.inverse_mass == 0.0)
+      continue;
+    loss += member.acceleration.dot(moves[m].shift) / member.inverse_mass + member.alpha * moves[m].turn / member.inverse_inertia;
+    place(member, moves[m].shift, moves[m].turn);
+  }
+  return lowest;
+}
+
+}  // namespace block_world

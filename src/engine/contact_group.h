@@ -1,0 +1,82 @@
+#pragma once
+
+#include <vector>
+
+#include "complementarity.h"
+#include "touch.h"
+
+namespace block_world
+{
+/// What bounds the answer of a contact group to an event.
+struct ContactScales
+{
+  double tolerance = 1e-6;      ///< m, the contact shell
+  double resolution = 1e-14;    ///< m, what the coordinates can resolve
+  bool dissipative = false;     ///< damping or a damper takes energy between impacts
+};
+
+/// Bodies that touch at one instant, and what happens to them there: impacts, capture into rest, and which touches carry force afterwards.
+///
+/// Fixed bodies are members with inverse masses 0.
+class ContactGroup
+{
+public:
+  std::vector<Member> members;
+  std::vector<Touch> touches;
+
+  void clear()
+  {
+    members.clear();
+    touches.clear();
+  }
+
+  /// Rows and Gram matrix A = J M^-1 J^T of the present touches, their approach velocities.
+  void prepare();
+
+  /// Impacts by staged reflections, then capture of the slow touches that forces press together. Returns the kinetic energy lost,
+  /// -1/2 sum j (w- + w+). Fills in impulse, capture, force and active of the touches.
+  double collide(const ContactScales& scales);
+
+  /// Whether the last collide pushed anything.
+  bool struck() const;
+
+  /// Moves the members as little as possible (mass metric) so that the gaps of the active touches, and those deeper than the resolution,
+  /// vanish. Returns the largest gap closed, and adds the work that the free forces do on the way, which the capture takes, to loss.
+  double settlePositions(double resolution, double& loss);
+
+  /// After settlePositions and with the new geometry: the active touches neither approach nor open. Returns the energy lost.
+  double holdActive();
+
+  /// Largest free acceleration, and the speeds below which a touch counts as resting or as not moving at all.
+  double accelerationScale() const
+  {
+    return acceleration_scale_;
+  }
+
+private:
+  double velocityOf(int i) const;
+  void push(int i, double impulse);
+  void scale(const ContactScales& scales);
+  double reflect(const std::vector<int>& rows);
+  double stop(const std::vector<int>& rows, bool pulling);
+  void clean();
+  bool anyElastic(const std::vector<int>& rows) const;
+  void solveRest();
+  bool isLocked(const std::vector<int>& rows);
+  void place(Member& member, const Vec2& shift, double turn);
+
+  SymmetricMatrix gram_;
+  Complementarity solver_;
+  Cholesky factor_;
+  std::vector<int> fast_, slow_, pressed_, all_, former_;
+  std::vector<double> rest_speed_, b_, before_, row_, solution_;
+  /// Sums of the absolute values of what made up a member's velocity.
+  struct Size
+  {
+    double x = 0.0, y = 0.0, omega = 0.0;
+  };
+  std::vector<Size> sizes_;
+  double acceleration_scale_ = 0.0, noise_ = 0.0;
+};
+
+}  // namespace block_world

@@ -1,0 +1,84 @@
+#pragma once
+
+#include <vector>
+
+#include "body.h"
+
+namespace block_world
+{
+/// Two bodies that may meet; at least one of them can move.
+struct Pair
+{
+  int a = -1, b = -1;
+  bool face_of_a = true;    ///< the face that was last seen to separate the bodies
+  int face = -1;
+  double face_gap = 0.0;    ///< m, when it was chosen
+  bool contact_due = false;  ///< the promise ends with a contact, not with a new look
+  /// A vertex that rests on a face: their gap is kept zero by the arcs and needs no guard.
+  struct Resting
+  {
+    bool face_of_a;
+    int face, vertex;
+  };
+  std::vector<Resting> resting;
+};
+
+/// One body as the detector sees it at an instant.
+struct View
+{
+  const Body* body = nullptr;
+  const Snapshot* now = nullptr;
+  Frame frame;
+};
+
+/// Promises that two bodies do not meet before a certain time, without sampling.
+///
+/// In the plane two convex bodies are disjoint exactly if a face of one of them separates them. The gap of a vertex over a face has a second
+/// derivative that the arcs bound, so a one-sided Newton step (Bannerman et al. 2011) never passes its zero and converges quadratically.
+/// Within the contact shell the gap itself is expanded as a polynomial, whose first zero is found rigorously.
+class Detector
+{
+public:
+  /// tolerance: the contact shell; resolution: what the coordinates resolve, both in m.
+  void configure(double tolerance, double resolution)
+  {
+    tolerance_ = tolerance;
+    resolution_ = resolution;
+  }
+
+  /// Cheap part of the promise: span in s for which the circles (or circle and half-plane) stay apart; negative if they are near.
+  double apart(const Body& a, const Snapshot& now_a, const Body& b, const Snapshot& now_b, double horizon) const;
+
+  /// Span in s, at most horizon, for which the pair is certified not to meet; sets pair.contact_due if it meets then.
+  double certify(Pair& pair, const View& a, const View& b, const Time& time, double horizon);
+
+private:
+  struct Certificate
+  {
+    double span;
+    bool contact;
+  };
+  double curvature(const View& face_view, const View& vertex_view, double horizon) const;
+  Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
+  Certificate shell(const Face& face, const Vec2& vertex, double gap, const View& face_view, const View& vertex_view, double horizon);
+  void localSeries(const View& view, bool of_face);
+
+  double tolerance_ = 1e-6, resolution_ = 1e-14;
+  Time time_;
+  struct Local
+  {
+    const Body* body = nullptr;
+    int degree = 0;
+    Series x{}, y{}, c{}, s{};
+  };
+  Local face_local_, vertex_local_;
+  /// A vertex that nothing holds on the face.
+  struct Open
+  {
+    int vertex;
+    double gap, rate;
+  };
+  std::vector<Open> open_;
+};
+
+}  // namespace block_world

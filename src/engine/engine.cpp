@@ -1,0 +1,218 @@
+#include "engine.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace block_world
+{
+World::Engine::Engine(Scene loaded) : loaded_(std::move(loaded))
+{
+  notes = completeScene(loaded_);
+  scene = loaded_;
+  build();
+  start();
+}
+
+/// Bodies, springs and pairs from the scene, all arcs at rest where the scene puts the blocks.
+void World::Engine::build()
+{
+  buildBodies();
+  field_.gravity = scene.gravity;
+  field_.damping = scene.damping;
+  field_.rotational_damping = scene.damping * scene.rotational_damping_ratio;
+  zero_height_ = scene.walls.bottom.value_or(0.0);
+  links_.clear();
+  const auto indexOf = [this](const std::string& name) {
+    for (int i = 0; i < block_count; ++i)
+      if (bodies[i].name == name)
+        return i;
+    return -1;
+  };
+  dissipative_ = scene.damping > 0.0;
+  for (const Spring& spring : scene.springs)
+  {
+    SpringLink link;
+    link.first = indexOf(spring.from_block);
+    link.second = spring.to_block.empty() ? -1 : indexOf(spring.to_block);
+    link.first_point = spring.from_point;
+    link.second_point = spring.to_point;
+    link.stiffness = spring.stiffness;
+    link.rest_length = spring.rest_length;
+    link.damping = spring.damping;
+    dissipative_ = dissipative_ || spring.damping > 0.0;
+    for (int end : { link.first, link.second })
+      if (end >= 0 && !bodies[end].fixed)
+        bodies[end].springs.push_back(static_cast<int>(links_.size()));
+    links_.push_back(link);
+  }
+  buildPairs();
+}
+
+void World::Engine::buildBodies()
+{
+  bodies.clear();
+  double largest = 0.0;
+  for (const Block& block : scene.blocks)
+  {
+    Body body;
+    body.name = block.name;
+    body.shape = makePolygon(block.vertices);
+    body.fixed = block.fixed;
+    if (!block.fixed)
+    {
+      body.mass = block.mass;
+      body.inertia = block.mass * body.shape.gyration;
+      body.inverse_mass = 1.0 / body.mass;
+      body.inverse_inertia = 1.0 / body.inertia;
+      body.thrusters = block.thrusters ? *block.thrusters : defaultThrusters(block.vertices, scene.thrust);
+      body.levels.assign(body.thrusters.size(), 0.0);
+    }
+    body.elasticity = block.elasticity.value_or(scene.elasticity);
+    body.arc.x[0] = block.position.x();
+    body.arc.y[0] = block.position.y();
+    body.arc.angle[0] = block.angle;
+    largest = std::max({ largest, std::abs(block.position.x()), std::abs(block.position.y()), body.shape.radius });
+    bodies.push_back(body);
+  }
+  block_count = static_cast<int>(bodies.size());
+  const auto wall = [&](const char* name, const std::optional<double>& at, const Vec2& normal) {
+    if (!at)
+      return;
+    Body body;
+    body.name = name;
+    body.elasticity = scene.elasticity;
+    body.shape = makeHalfPlane(normal, normal.x() + normal.y() > 0.0 ? *at : -*at);
+    largest = std::max(largest, std::abs(*at));
+    bodies.push_back(body);
+  };
+  wall("wall_left", scene.walls.left, Vec2(1, 0));
+  wall("wall_right", scene.walls.right, Vec2(-1, 0));
+  wall("wall_bottom", scene.walls.bottom, Vec2(0, 1));
+  wall("wall_top", scene.walls.top, Vec2(0, -1));
+  resolution_ = 8.0 * (std::nextafter(largest, HUGE_VAL) - largest);
+}
+
+void World::Engine::buildPairs()
+{
+  pairs_.clear();
+  const int count = static_cast<int>(bodies.size());
+  for (int a = 0; a < count; ++a)
+    for (int b = a + 1; b < count; ++b)
+    {
+      if (bodies[a].fixed && bodies[b].fixed)
+        continue;
+      Pair pair;
+      pair.a = a;
+      pair.b = b;
+      bodies[a].pairs.push_back(static_cast<int>(pairs_.size()));
+      bodies[b].pairs.push_back(static_cast<int>(pairs_.size()));
+      pairs_.push_back(pair);
+    }
+  islands_.assign(count, Island());
+  promises_.reset(1 + 2 * count + static_cast<int>(pairs_.size()));
+  cache_.assign(count, Cached());
+  member_of_.assign(count, -1);
+  pair_mark_.assign(pairs_.size(), 0);
+  mark_ = 0;
+  detector_.configure(scene.tolerance, resolution_);
+}
+
+/// Sets the scene's states in motion at now, and begins a new account there.
+void World::Engine::start()
+{
+  for (int i = 0; i < block_count; ++i)
+  {
+    Body& body = bodies[i];
+    const Block& block = scene.blocks[i];
+    BodyState state;
+    state.position = block.position;
+    state.angle = block.angle;
+    state.velocity = block.velocity;
+    state.omega = block.omega;
+    putAt(i, state, now);
+    if (body.fixed)
+    {
+      body.arc.degree = 0;
+      continue;
+    }
+    body.island = i;
+    islands_[i].bodies.assign(1, i);
+    islands_[i].rests.clear();
+  }
+  resolveAll(now);
+  input_start_ = now;
+  next_input_ = 0;
+  promises_.set(0, scene.inputs.empty() ? Time::infinity() : input_start_ + scene.inputs[0].time.seconds());
+  restartAccount();
+}
+
+void World::Engine::resolveAll(const Time& time)
+{
+  std::vector<char> done(bodies.size(), 0);
+  for (int i = 0; i < block_count; ++i)
+  {
+    if (bodies[i].fixed || done[i])
+      continue;
+    seeds_.assign(1, i);
+    resolve(time);
+    for (const Member& member : group_.members)
+      done[member.body] = 1;
+  }
+}
+
+Time World::Engine::advance(Time target, std::int64_t max_events)
+{
+  std::int64_t kept = 0;
+  while (promises_.firstTime() <= target)
+  {
+    if (max_events >= 0 && kept++ >= max_events)
+      return now;
+    const int slot = promises_.first();
+    const Time time = promises_.firstTime();
+    if (time > now)
+      now = time;
+    ++statistics.events;
+    keep(slot, now);
+  }
+  now = target;
+  return now;
+}
+
+/// A promise came due.
+void World::Engine::keep(int slot, const Time& time)
+{
+  const int count = static_cast<int>(bodies.size());
+  if (slot == 0)
+    applyInputs(time);
+  else if (slot < 1 + count)
+    expire(slot - 1, time);
+  else if (slot < 1 + 2 * count)
+  {
+    const int island = slot - 1 - count;
+    if (islands_[island].rests.empty())
+      continueIsland(island, time);
+    else
+    {
+      seeds_.assign(1, islands_[island].bodies.front());
+      resolve(time);
+    }
+  }
+  else
+  {
+    const int pair = slot - 1 - 2 * count;
+    if (!pairs_[pair].contact_due)
+    {
+      lookAtPair(pair, time);
+      return;
+    }
+    const int a = pairs_[pair].a, b = pairs_[pair].b;
+    seeds_.clear();
+    if (!bodies[a].fixed)
+      seeds_.push_back(a);
+    if (!bodies[b].fixed)
+      seeds_.push_back(b);
+    resolve(time);
+  }
+}
+
+}  // namespace block_world

@@ -1,0 +1,162 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "block_world/world.h"
+#include "contact_group.h"
+#include "detect.h"
+#include "flow.h"
+#include "promises.h"
+
+namespace block_world
+{
+/// Bodies that move as one: joined by touches that carry force or by springs. Stored at the lowest of its body indices.
+struct Island
+{
+  std::vector<int> bodies;
+  std::vector<Rest> rests;
+};
+
+/// The world behind World: arcs, promises, and what happens when a promise comes due.
+///
+/// Slots of the promises: the scene's timed inputs, then per body the end of its timed commands, per island the end of its arcs (or a release,
+/// or a vertex that leaves its face), per pair the next look at its gap.
+class World::Engine
+{
+public:
+  explicit Engine(Scene scene);
+
+  Time advance(Time target, std::int64_t max_events);
+  Applied apply(const Command& command);
+
+  Energy energy() const;
+  std::vector<Contact> restingContacts() const;
+  double overlap() const;
+  std::vector<SpringState> springs() const;
+  std::uint64_t stateHash() const;
+
+  // Read by World; written by the engine only.
+  Time now;
+  Scene scene;
+  std::vector<std::string> notes;
+  std::vector<Body> bodies;  ///< blocks in scene order, then walls
+  int block_count = 0;
+  std::vector<Contact> contacts;
+  std::vector<TimedCommand> inputs_done;
+  Statistics statistics;
+
+private:
+  friend class World;
+
+  // engine.cpp: building and the main loop
+  void build();
+  void buildBodies();
+  void buildPairs();
+  void start();
+  void resolveAll(const Time& time);
+  void keep(int slot, const Time& time);
+  int expirySlot(int body) const
+  {
+    return 1 + body;
+  }
+  int islandSlot(int body) const
+  {
+    return 1 + static_cast<int>(bodies.size()) + body;
+  }
+  int pairSlot(int pair) const
+  {
+    return 1 + 2 * static_cast<int>(bodies.size()) + pair;
+  }
+
+  // resolve.cpp: what happens at an event
+  void resolve(const Time& time);
+  void join(int body, const Time& time);
+  int memberOf(int body, const Time& time);
+  void findTouches(const Time& time);
+  void report(const Time& time, bool last);
+  void settle();
+  void regroup(const Time& time);
+  void launch(const Time& time, const std::vector<int>& members);
+  void promiseIsland(int island, const Time& time);
+  void continueIsland(int island, const Time& time);
+  void lookAtPairs(const Time& time);
+  void lookAtPair(int pair, const Time& time);
+  const Snapshot& snapshot(int body, const Time& time);
+  const Frame& frame(int body, const Time& time);
+  void freeAcceleration(Member& member) const;
+
+  // account.cpp: energies and works
+  struct Work
+  {
+    double thrust = 0.0, damping = 0.0;
+  };
+  Work arcWork(const Body& body, const Time& time) const;
+  double damperLoss(const Body& first, const Vec2& first_point, const Body* second, const Vec2& second_point, double rest_length,
+                    double damping, const Time& time) const;
+  double springLoss(int island, const Time& time) const;
+  void closeArc(int body, const Time& time);
+  void closeSprings(int island, const Time& time);
+  void closeIsland(int body, const Time& time);
+  void putAt(int body, const BodyState& state, const Time& time);
+  void stored(const Time& time, Energy& energy) const;
+  double storedTotal(const Time& time) const;
+  double springEnergy(const SpringLink& link, const Time& time) const;
+  double mouseEnergy(const Body& body, const Time& time) const;
+  void restartAccount();
+
+  // commands.cpp
+  struct Handler;
+  Applied applyAt(const Command& command, const Time& time);
+  void expire(int body, const Time& time);
+  void applyInputs(const Time& time);
+  void expiryPromise(int body);
+  void wake(int body, const Time& time);
+  void set(const SetCommand& command);
+  void refreshPush(Body& body);
+  void release(Body& body, const Time& time);
+  void pickNearest(SpringCommand& command, const Time& time) const;
+  bool overlaps(int body, const Frame& frame, const Time& time, std::string& with) const;
+  void dissolve(int body, const Time& time);
+  void rebuild(const Time& time);
+
+  Scene loaded_;
+  Field field_;
+  double zero_height_ = 0.0;
+  double resolution_ = 0.0;
+  bool dissipative_ = false;
+  std::vector<SpringLink> links_;
+  std::vector<Pair> pairs_;
+  std::vector<Island> islands_;
+  Promises promises_;
+  Detector detector_;
+  TouchFinder finder_;
+  ContactGroup group_;
+  Flow flow_;
+
+  // Timed inputs of the scene, from input_start_ on.
+  std::size_t next_input_ = 0;
+  Time input_start_;
+
+  // Account since its start.
+  double initial_total_ = 0.0, thrust_work_ = 0.0, spring_work_ = 0.0, command_work_ = 0.0, damping_loss_ = 0.0, impact_loss_ = 0.0;
+
+  // Workspace of an event.
+  struct Cached
+  {
+    Time time = Time::infinity();
+    bool framed = false;
+    Snapshot now;
+    Frame frame;
+  };
+  std::vector<Cached> cache_;
+  std::vector<int> seeds_, member_of_, group_pairs_, component_, island_members_;
+  std::vector<int> pair_mark_;
+  int mark_ = 0;
+  std::vector<Rest> former_rests_;
+  std::vector<Member> island_state_;
+  bool velocity_decided_ = false;
+};
+
+}  // namespace block_world

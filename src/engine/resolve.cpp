@@ -1,0 +1,523 @@
+#include <algorithm>
+#include <cmath>
+
+#include "engine.h"
+
+namespace block_world
+{
+const Snapshot& World::Engine::snapshot(int body, const Time& time)
+{
+  Cached& cached = cache_[body];
+  if (cached.time != time)
+  {
+    cached.time = time;
+    cached.framed = false;
+    cached.now = bodies[body].at(time);
+  }
+  return cached.now;
+}
+
+const Frame& World::Engine::frame(int body, const Time& time)
+{
+  const Snapshot& now = snapshot(body, time);
+  Cached& cached = cache_[body];
+  if (!cached.framed)
+  {
+    cached.frame = Frame(now.position, now.angle);
+    cached.framed = true;
+  }
+  return cached.frame;
+}
+
+/// Accelerations by all forces but contact, at the member's state.
+void World::Engine::freeAcceleration(Member& m) const
+{
+  const Body& body = bodies[m.body];
+  m.acceleration = -field_.damping * body.inverse_mass * m.velocity - Vec2(0.0, field_.gravity);
+  m.alpha = -field_.rotational_damping * body.inverse_inertia * m.omega;
+  if (body.pushed())
+  {
+    m.acceleration += body.inverse_mass * m.frame.rotate(body.push);
+    m.alpha += body.inverse_inertia * body.twist;
+  }
+  const auto pull = [&](const Vec2& arm, const Vec2& force) {
+    m.acceleration += body.inverse_mass * force;
+    m.alpha += body.inverse_inertia * cross(arm, force);
+  };
+  if (body.mouse.active)
+  {
+    const Vec2 arm = m.frame.rotate(body.mouse.attach);
+    pull(arm, -body.mouse.stiffness * (m.frame.position + arm - body.mouse.anchor) -
+                  body.mouse.damping * (m.velocity + m.omega * perp(arm)));
+  }
+  for (int index : body.springs)
+  {
+    const SpringLink& link = links_[index];
+    const bool is_first = link.first == m.body;
+    const int other = is_first ? link.second : link.first;
+    const Vec2 arm = m.frame.rotate(is_first ? link.first_point : link.second_point);
+    Vec2 end = is_first ? link.second_point : link.first_point, end_velocity = Vec2::Zero();
+    if (other >= 0)
+    {
+      // Movable ends of a spring are members together; a fixed one stays where its arc begins.
+      const int k = member_of_[other];
+      const Arc& still = bodies[other].arc;
+      const Frame f = k >= 0 ? group_.members[k].frame : Frame(Vec2(still.x[0], still.y[0]), still.angle[0]);
+      const Vec2 far_arm = f.rotate(end);
+      if (k >= 0)
+        end_velocity = group_.members[k].velocity + group_.members[k].omega * perp(far_arm);
+      end = f.position + far_arm;
+    }
+    const Vec2 d = m.frame.position + arm - end;
+    const Vec2 rate = m.velocity + m.omega * perp(arm) - end_velocity;
+    if (link.rest_length == 0.0)
+    {
+      pull(arm, -link.stiffness * d - link.damping * rate);
+      continue;
+    }
+    const double length = d.norm();
+    if (length > 0.0)
+      pull(arm, -(link.stiffness * (length - link.rest_length) + link.damping * d.dot(rate) / length) / length * d);
+  }
+}
+
+int World::Engine::memberOf(int body, const Time& time)
+{
+  if (member_of_[body] >= 0)
+    return member_of_[body];
+  const Snapshot& now = snapshot(body, time);
+  Member m;
+  m.body = body;
+  m.frame = frame(body, time);
+  m.angle = now.angle;
+  m.velocity = now.velocity;
+  m.omega = now.omega;
+  m.inverse_mass = bodies[body].inverse_mass;
+  m.inverse_inertia = bodies[body].inverse_inertia;
+  member_of_[body] = static_cast<int>(group_.members.size());
+  group_.members.push_back(m);
+  return member_of_[body];
+}
+
+/// Takes a body, its island and whatever springs tie to it into the group.
+void World::Engine::join(int body, const Time& time)
+{
+  if (member_of_[body] >= 0)
+    return;
+  memberOf(body, time);
+  if (bodies[body].fixed)
+    return;
+  for (int other : islands_[bodies[body].island].bodies)
+    join(other, time);
+  for (int index : bodies[body].springs)
+    for (int end : { links_[index].first, links_[index].second })
+      if (end >= 0 && !bodies[end].fixed)
+        join(end, time);
+}
+
+/// All touches of the group's bodies; who touches them joins the group with its island.
+void World::Engine::findTouches(const Time& time)
+{
+  group_.touches.clear();
+  group_pairs_.clear();
+  velocity_decided_ = false;
+  ++mark_;
+  for (std::size_t m = 0; m < group_.members.size(); ++m)
+  {
+    const int body = group_.members[m].body;
+    if (bodies[body].fixed)
+      continue;
+    for (int index : bodies[body].pairs)
+    {
+      if (pair_mark_[index] == mark_)
+        continue;
+      pair_mark_[index] = mark_;
+      group_pairs_.push_back(index);
+      const Pair& pair = pairs_[index];
+      const int other = pair.a == body ? pair.b : pair.a;
+      const Body &first = bodies[pair.a], &second = bodies[pair.b];
+      const auto viewed = [&](int which) {
+        Member view;
+        const int k = member_of_[which];
+        if (k >= 0)
+          return group_.members[k];
+        const Snapshot& now = snapshot(which, time);
+        view.body = which;
+        view.frame.position = now.position;
+        view.angle = now.angle;
+        view.velocity = now.velocity;
+        view.omega = now.omega;
+        return view;
+      };
+      Member view_a = viewed(pair.a), view_b = viewed(pair.b);
+      const double shell = 0.5 * scene.tolerance;
+      if (first.shape.vertices.empty() || second.shape.vertices.empty())
+      {
+        const bool wall_first = first.shape.vertices.empty();
+        const Face& face = (wall_first ? first : second).shape.faces.front();
+        const Body& block = wall_first ? second : first;
+        if (face.normal.dot((wall_first ? view_b : view_a).frame.position) - face.offset > block.shape.radius + shell)
+          continue;
+      }
+      else
+      {
+        const double reach = first.shape.radius + second.shape.radius + shell;
+        if ((view_a.frame.position - view_b.frame.position).squaredNorm() > reach * reach)
+          continue;
+      }
+      for (Member* view : { &view_a, &view_b })
+        if (member_of_[view->body] < 0)
+          view->frame = frame(view->body, time);
+      const std::size_t before = group_.touches.size();
+      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches);
+      if (group_.touches.size() == before)
+        continue;
+      velocity_decided_ = velocity_decided_ || finder_.velocityDecided();
+      join(other, time);
+      for (std::size_t t = before; t < group_.touches.size(); ++t)
+        group_.touches[t].pair = index;
+    }
+  }
+  for (Touch& touch : group_.touches)
+  {
+    touch.member_a = member_of_[touch.a];
+    touch.member_b = member_of_[touch.b];
+    statistics.worst_overlap = std::max(statistics.worst_overlap, -touch.gap);
+  }
+}
+
+/// What the last collide did, as contacts.
+void World::Engine::report(const Time& time, bool last)
+{
+  int last_pair = -1;
+  const auto contactOf = [&](const Touch& t, ContactKind kind) {
+    Contact contact;
+    contact.time = time;
+    contact.kind = kind;
+    contact.a = t.a;
+    contact.b = t.b;
+    contact.point = group_.members[t.member_a].frame.position + t.arm;
+    contact.normal = t.normal;
+    contact.normal_velocity = t.approach;
+    return contact;
+  };
+  const auto same = [](const Touch& p, const Touch& q) {
+    return p.a == q.a && p.b == q.b && p.vertex == q.vertex && p.face == q.face;
+  };
+  for (const Touch& t : group_.touches)
+  {
+    bool fresh = t.active;
+    for (const Rest& former : former_rests_)
+      fresh = fresh && !same(former.touch, t);
+    const double impulse = t.impulse + t.capture;
+    const bool hit = t.impulse > 0.0 || std::abs(impulse) > 1e-14 * std::abs(t.approach) / contactGram(t, t, group_.members);
+    if (hit && !(fresh && last))
+    {
+      Contact contact = contactOf(t, ContactKind::Impact);
+      contact.impulse = impulse;
+      contacts.push_back(contact);
+    }
+    if (t.impulse > 0.0 && t.pair != last_pair)
+    {
+      ++statistics.impacts;
+      last_pair = t.pair;
+    }
+    if (fresh && last)
+    {
+      Contact contact = contactOf(t, ContactKind::RestBegin);
+      contact.impulse = impulse;
+      contacts.push_back(contact);
+    }
+  }
+  if (!last)
+    return;
+  for (const Rest& former : former_rests_)
+  {
+    bool gone = true;
+    for (const Touch& t : group_.touches)
+      gone = gone && !(t.active && same(former.touch, t));
+    if (!gone)
+      continue;
+    Touch ended = former.touch;
+    ended.member_a = member_of_[ended.a];
+    ended.member_b = member_of_[ended.b];
+    const Member &a = group_.members[ended.member_a], &b = group_.members[ended.member_b];
+    ended.arm = a.frame.rotate(bodies[ended.a].shape.vertices[ended.vertex]);
+    ended.normal = b.frame.rotate(bodies[ended.b].shape.faces[ended.face].normal);
+    ended.reach = a.frame.position + ended.arm - b.frame.position;
+    ended.approach = normalVelocity(ended, a, b);
+    Contact contact = contactOf(ended, ContactKind::RestEnd);
+    contacts.push_back(contact);
+  }
+}
+
+/// Everything that touches the seeds meets at this instant: impacts, capture, new islands, new arcs, new promises.
+void World::Engine::resolve(const Time& time)
+{
+  for (const Member& m : group_.members)
+    member_of_[m.body] = -1;
+  group_.clear();
+  for (int body : seeds_)
+    join(body, time);
+
+  ContactScales scales;
+  scales.tolerance = scene.tolerance;
+  scales.resolution = resolution_;
+  scales.dissipative = dissipative_;
+  former_rests_.clear();
+  // Corner on corner is decided by the velocities: look again with the new ones.
+  for (int round = 0;; ++round)
+  {
+    findTouches(time);
+    if (round == 0)
+      for (const Member& m : group_.members)
+        if (!bodies[m.body].fixed && bodies[m.body].island == m.body)
+          former_rests_.insert(former_rests_.end(), islands_[m.body].rests.begin(), islands_[m.body].rests.end());
+    for (Member& m : group_.members)
+      if (!bodies[m.body].fixed)
+        freeAcceleration(m);
+    if (group_.touches.empty())
+    {
+      report(time, true);
+      break;
+    }
+    group_.prepare();
+    impact_loss_ += group_.collide(scales);
+    const bool again = velocity_decided_ && round < 8 && group_.struck();
+    report(time, !again);
+    if (!again)
+      break;
+  }
+  settle();
+  for (const Member& m : group_.members)
+    if (!bodies[m.body].fixed)
+    {
+      closeArc(m.body, time);
+      if (bodies[m.body].island == m.body)
+        closeSprings(m.body, time);
+    }
+  regroup(time);
+  lookAtPairs(time);
+}
+
+/// Gaps of the touches that carry force become exactly zero, and so do their rates.
+void World::Engine::settle()
+{
+  for (int pass = 0; pass < 3; ++pass)
+  {
+    const double moved = group_.settlePositions(resolution_, impact_loss_);
+    if (moved == 0.0)
+      return;
+    for (Touch& t : group_.touches)
+    {
+      const Member &a = group_.members[t.member_a], &b = group_.members[t.member_b];
+      const Face& face = bodies[t.b].shape.faces[t.face];
+      t.arm = a.frame.rotate(bodies[t.a].shape.vertices[t.vertex]);
+      t.reach = a.frame.position + t.arm - b.frame.position;
+      if (!t.corner)
+        t.normal = b.frame.rotate(face.normal);
+      t.gap = t.normal.dot(t.reach) - face.offset;
+    }
+    if (moved <= 8.0 * resolution_)
+      return;
+    impact_loss_ += group_.holdActive();
+  }
+}
+
+/// New islands among the members: joined by touches that carry force or by springs.
+void World::Engine::regroup(const Time& time)
+{
+  const int count = static_cast<int>(group_.members.size());
+  component_.resize(count);
+  for (int i = 0; i < count; ++i)
+    component_[i] = i;
+  const auto root = [this](int i) {
+    while (component_[i] != i)
+      i = component_[i];
+    return i;
+  };
+  const auto unite = [&](int i, int j) {
+    const int p = root(i), q = root(j);
+    if (group_.members[p].body < group_.members[q].body)
+      component_[q] = p;
+    else
+      component_[p] = q;
+  };
+  for (const Touch& t : group_.touches)
+    if (t.active && !bodies[t.a].fixed && !bodies[t.b].fixed)
+      unite(t.member_a, t.member_b);
+  for (const Member& m : group_.members)
+    for (int index : bodies[m.body].springs)
+    {
+      const SpringLink& link = links_[index];
+      if (link.second >= 0 && !bodies[link.first].fixed && !bodies[link.second].fixed)
+        unite(member_of_[link.first], member_of_[link.second]);
+    }
+  for (const Member& m : group_.members)
+    if (!bodies[m.body].fixed)
+    {
+      islands_[m.body].bodies.clear();
+      islands_[m.body].rests.clear();
+      promises_.set(islandSlot(m.body), Time::infinity());
+    }
+  for (int index : group_pairs_)
+    pairs_[index].resting.clear();
+  for (int i = 0; i < count; ++i)
+  {
+    if (bodies[group_.members[i].body].fixed || root(i) != i)
+      continue;
+    island_members_.clear();
+    for (int j = 0; j < count; ++j)
+      if (!bodies[group_.members[j].body].fixed && root(j) == i)
+        island_members_.push_back(j);
+    launch(time, island_members_);
+  }
+}
+
+/// Arcs and promises of one new island. members: indices into the group.
+void World::Engine::launch(const Time& time, const std::vector<int>& members)
+{
+  int name = group_.members[members.front()].body;
+  for (int m : members)
+    name = std::min(name, group_.members[m].body);
+  Island& island = islands_[name];
+  island_state_.clear();
+  for (std::size_t k = 0; k < members.size(); ++k)
+  {
+    const Member& m = group_.members[members[k]];
+    island.bodies.push_back(m.body);
+    bodies[m.body].island = name;
+    island_state_.push_back(m);
+  }
+  const auto indexIn = [&](int member) {
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (members[k] == member)
+        return static_cast<int>(k);
+    return -1;
+  };
+  for (const Touch& t : group_.touches)
+  {
+    if (!t.active)
+      continue;
+    Rest rest;
+    rest.touch = t;
+    rest.touch.member_a = indexIn(t.member_a);
+    rest.touch.member_b = indexIn(t.member_b);
+    if (rest.touch.member_a < 0 && rest.touch.member_b < 0)
+      continue;
+    island.rests.push_back(rest);
+    Pair& pair = pairs_[t.pair];
+    pair.resting.push_back({ pair.a == t.b, t.face, t.vertex });
+  }
+  flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
+  for (int body : island.bodies)
+    cache_[body].time = Time::infinity();
+
+  // An island in equilibrium whose velocities are rounding sleeps: constant arcs without an end.
+  if (!island.rests.empty())
+  {
+    const double a = group_.accelerationScale();
+    bool still = true;
+    for (int body : island.bodies)
+    {
+      const Arc& arc = bodies[body].arc;
+      const double radius = bodies[body].shape.radius;
+      const double speed = std::hypot(arc.x[1], arc.y[1]) + radius * std::abs(arc.angle[1]);
+      const double acceleration = std::hypot(arc.x[2], arc.y[2]) + radius * std::abs(arc.angle[2]);
+      still = still && speed <= 1e-12 * std::sqrt(a * radius) && acceleration <= 1e-12 * a;
+    }
+    if (still)
+    {
+      for (int body : island.bodies)
+      {
+        Arc& arc = bodies[body].arc;
+        arc.x[1] = arc.y[1] = arc.angle[1] = arc.x[2] = arc.y[2] = arc.angle[2] = 0.0;
+        arc.degree = 0;
+        arc.horizon = std::numeric_limits<double>::infinity();
+        arc.end = Time::infinity();
+        arc.jerk = arc.angular_jerk = 0.0;
+      }
+      for (Rest& rest : island.rests)
+        rest.degree = 0;
+    }
+  }
+  promiseIsland(name, time);
+}
+
+/// The island's next event: the end of its arcs, a force that would pull, or a vertex that leaves its face.
+void World::Engine::promiseIsland(int name, const Time& time)
+{
+  const Island& island = islands_[name];
+  const Arc& arc = bodies[island.bodies.front()].arc;
+  double span = arc.horizon;
+  double largest = 0.0;
+  for (const Rest& rest : island.rests)
+    largest = std::max(largest, std::abs(rest.force[0]));
+  for (const Rest& rest : island.rests)
+  {
+    if (rest.degree > 2)
+      span = std::min(span, firstBelow(rest.force, rest.degree - 2, span, -1e-12 * largest));
+    const Face& face = bodies[rest.touch.b].shape.faces[rest.touch.face];
+    if (std::isinf(face.length))
+      continue;
+    // A vertex inside the face's ends leaves exactly at them; one that was let in a little outside has the shell to go.
+    Series left = rest.along;
+    for (double& c : left)
+      c = -c;
+    left[0] += face.length;
+    for (const Series* margin : { &rest.along, const_cast<const Series*>(&left) })
+      span = std::min(span, firstBelow(*margin, rest.degree, span, (*margin)[0] > resolution_ ? 0.0 : -scene.tolerance));
+  }
+  promises_.set(islandSlot(name), span < arc.horizon ? time + span : arc.end);
+}
+
+/// The arcs of an island without contact reach their end: the same motion, expanded anew. No trajectory changes, so no other promise does.
+void World::Engine::continueIsland(int name, const Time& time)
+{
+  Island& island = islands_[name];
+  island_state_.clear();
+  for (int body : island.bodies)
+  {
+    closeArc(body, time);
+    const Snapshot now = snapshot(body, time);
+    Member m;
+    m.body = body;
+    m.frame = frame(body, time);
+    m.angle = now.angle;
+    m.velocity = now.velocity;
+    m.omega = now.omega;
+    island_state_.push_back(m);
+  }
+  closeSprings(name, time);
+  flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
+  for (int body : island.bodies)
+    cache_[body].time = Time::infinity();
+  promiseIsland(name, time);
+}
+
+void World::Engine::lookAtPairs(const Time& time)
+{
+  for (int index : group_pairs_)
+    lookAtPair(index, time);
+}
+
+void World::Engine::lookAtPair(int index, const Time& time)
+{
+  Pair& pair = pairs_[index];
+  const Body &a = bodies[pair.a], &b = bodies[pair.b];
+  const Time end = std::min(a.arc.end, b.arc.end);
+  const double horizon = end - time;
+  const Snapshot &now_a = snapshot(pair.a, time), &now_b = snapshot(pair.b, time);
+  double span = -1.0;
+  if (pair.resting.empty())
+    span = detector_.apart(a, now_a, b, now_b, horizon);
+  pair.contact_due = false;
+  if (span < 0.0)
+  {
+    const View view_a{ &a, &now_a, frame(pair.a, time) }, view_b{ &b, &now_b, frame(pair.b, time) };
+    span = detector_.certify(pair, view_a, view_b, time, horizon);
+  }
+  promises_.set(pairSlot(index), span < horizon ? time + span : end);
+}
+
+}  // namespace block_world

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+
+namespace block_world
+{
+/// Highest power of time in an arc. Jorba & Zou (2005): the cheapest order for a relative error eps is about 1 - ln(eps)/2.
+constexpr int kOrder = 16;
+
+/// Coefficients of 1, s, s^2, ... with s the time since the start of an arc.
+using Series = std::array<double, kOrder + 1>;
+
+/// sum_n c_n s^n up to the degree.
+inline double evaluate(const Series& c, int degree, double s)
+{
+  double value = c[degree];
+  for (int n = degree - 1; n >= 0; --n)
+    value = value * s + c[n];
+  return value;
+}
+
+/// First derivative of the same sum.
+inline double evaluateDerivative(const Series& c, int degree, double s)
+{
+  double value = 0.0;
+  for (int n = degree; n >= 1; --n)
+    value = value * s + n * c[n];
+  return value;
+}
+
+/// Second derivative of the same sum.
+inline double evaluateSecondDerivative(const Series& c, int degree, double s)
+{
+  double value = 0.0;
+  for (int n = degree; n >= 2; --n)
+    value = value * s + n * (n - 1) * c[n];
+  return value;
+}
+
+/// Coefficient n of the product a b.
+inline double cauchy(const Series& a, const Series& b, int n)
+{
+  double sum = 0.0;
+  for (int j = 0; j <= n; ++j)
+    sum += a[j] * b[n - j];
+  return sum;
+}
+
+/// First zero after 0 of g + v s + a s^2 / 2 for g >= 0, without cancellation; infinity if there is none.
+double firstZero(double g, double v, double a);
+
+/// The same polynomial about s = shift (Horner's scheme repeated).
+Series shifted(const Series& c, int degree, double shift);
+
+/// Coefficients of cos and sin of an angle series, from those of order 0, which the caller sets:
+/// C' = -S w, S' = C w with w the derivative of the angle.
+void trigonometricSeries(const Series& angle, int degree, int order, Series& cosine, Series& sine);
+
+/// First s in [0, horizon] at which the polynomial goes below the floor; infinity if it provably stays above. The horizon may be infinite for
+/// parabolas.
+/// Rigorous: a polynomial lies within the hull of its Bernstein coefficients; where the hull does not decide, the interval is halved (de Casteljau).
+double firstBelow(const Series& c, int degree, double horizon, double floor);
+
+}  // namespace block_world

@@ -1,0 +1,89 @@
+#pragma once
+
+#include <vector>
+
+#include "body.h"
+
+namespace block_world
+{
+/// A body at the instant of an event: its pose, twist and free acceleration (without contact forces).
+struct Member
+{
+  int body = -1;
+  Frame frame;
+  double angle = 0.0;
+  Vec2 velocity = Vec2::Zero();
+  double omega = 0.0;
+  Vec2 acceleration = Vec2::Zero();
+  double alpha = 0.0;
+  double inverse_mass = 0.0, inverse_inertia = 0.0;
+};
+
+/// A vertex of body a within the shell of a face of body b. Gap g = n.(x_a + R_a p - x_b) - o; its gradient by the two twists is
+/// J_a = (n, r x n), J_b = -(n, d x n), with r = R_a p and d = x_a + r - x_b.
+struct Touch
+{
+  int pair = -1;
+  int a = -1, b = -1;        ///< bodies
+  int vertex = 0, face = 0;  ///< of a, of b
+  bool corner = false;       ///< corner on corner: the normal is the bisector of several faces, good for an impact only
+  int member_a = -1, member_b = -1;
+  Vec2 normal = Vec2::Zero();  ///< from b to a
+  Vec2 arm = Vec2::Zero();     ///< r
+  Vec2 reach = Vec2::Zero();   ///< d
+  double gap = 0.0;            ///< m
+  double along = 0.0;          ///< m, from the start of the face
+  double elasticity = 1.0;
+
+  double approach = 0.0;  ///< m/s, normal velocity before the event; negative = approaching
+  double impulse = 0.0;   ///< N s, of reflections
+  double capture = 0.0;   ///< N s, of the inelastic end
+  double force = 0.0;     ///< N
+  bool active = false;    ///< carries force: a constraint of the next arcs
+};
+
+/// (v_a - v_b).n, the rate of the gap.
+double normalVelocity(const Touch& touch, const Member& a, const Member& b);
+/// g'' at the given accelerations: n.(a_a + alpha_a perp r - w_a^2 r - a_b) - 2 w_b n.perp(d') - alpha_b n.perp(d) - w_b^2 n.d.
+double normalAcceleration(const Touch& touch, const Member& a, const Member& b);
+
+/// J_p M^-1 J_q^T: how much an impulse of 1 N s at one touch changes the normal velocity of the other; members by their indices in the touches
+/// (-1: immovable).
+double contactGram(const Touch& p, const Touch& q, const std::vector<Member>& members);
+
+/// Finds the touches of a pair: vertices within `reach` of a face that separates the bodies best, seen from both bodies.
+///
+/// Faces tie within the tolerance where flat meets flat (parallel: all their touches count, coinciding ones once) and where corner meets
+/// corner. There the feasible motions are the union of the half-spaces of the tied faces, so the bodies are in each other's way only if
+/// they approach on every one: then one touch along the bisector is given, else the touches of the face on which they separate most.
+class TouchFinder
+{
+public:
+  /// tolerance: m, the contact shell; shell: m, gap below which a vertex touches.
+  void find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance, std::vector<Touch>& touches);
+  /// Whether the last find had to choose between tied faces by the velocities.
+  bool velocityDecided() const
+  {
+    return velocity_decided_;
+  }
+
+private:
+  struct Candidate
+  {
+    bool of_first;  ///< face of body a (else of body b)
+    int face;
+    Vec2 normal;    ///< outward, world
+    double gap;
+    int cluster;
+  };
+  void collect(const Body& face_body, const Member& face_member, const Body& vertex_body, const Member& vertex_member, bool of_first);
+  void gather(const Candidate& candidate, const Body& face_body, const Member& face_member, const Body& vertex_body,
+              const Member& vertex_member, std::vector<Touch>& touches) const;
+
+  double tolerance_ = 0.0;
+  std::vector<Candidate> candidates_;
+  std::vector<Touch> found_;
+  bool velocity_decided_ = false;
+};
+
+}  // namespace block_world

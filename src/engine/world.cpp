@@ -1,0 +1,126 @@
+#include "block_world/world.h"
+
+#include "engine.h"
+
+namespace block_world
+{
+World::World(Scene scene) : engine_(std::make_unique<Engine>(std::move(scene)))
+{
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+Time World::now() const
+{
+  return engine_->now;
+}
+
+Time World::advance(Time target, std::int64_t max_events)
+{
+  return engine_->advance(target, max_events);
+}
+
+Applied World::apply(const Command& command)
+{
+  return engine_->apply(command);
+}
+
+const Scene& World::scene() const
+{
+  return engine_->scene;
+}
+
+int World::bodyCount() const
+{
+  return engine_->block_count;
+}
+
+const Block& World::block(int body) const
+{
+  return engine_->scene.blocks[body];
+}
+
+bool World::isFixed(int body) const
+{
+  return engine_->bodies[body].fixed;
+}
+
+const std::string& World::name(int body) const
+{
+  return engine_->bodies[body].name;
+}
+
+int World::find(const std::string& name) const
+{
+  for (int i = 0; i < engine_->block_count; ++i)
+    if (engine_->bodies[i].name == name)
+      return i;
+  return -1;
+}
+
+BodyState World::state(int body) const
+{
+  return engine_->bodies[body].stateAt(engine_->now);
+}
+
+Energy World::energy() const
+{
+  return engine_->energy();
+}
+
+std::vector<Contact> World::takeContacts()
+{
+  std::vector<Contact> taken;
+  taken.swap(engine_->contacts);
+  return taken;
+}
+
+std::vector<TimedCommand> World::takeInputs()
+{
+  std::vector<TimedCommand> taken;
+  taken.swap(engine_->inputs_done);
+  return taken;
+}
+
+std::vector<Contact> World::restingContacts() const
+{
+  return engine_->restingContacts();
+}
+
+double World::overlap() const
+{
+  return engine_->overlap();
+}
+
+std::vector<SpringState> World::springs() const
+{
+  return engine_->springs();
+}
+
+const std::vector<Thruster>& World::thrusters(int body) const
+{
+  return engine_->bodies[body].thrusters;
+}
+
+std::vector<double> World::thrustLevels(int body) const
+{
+  return engine_->bodies[body].levels;
+}
+
+std::uint64_t World::stateHash() const
+{
+  return engine_->stateHash();
+}
+
+const Statistics& World::statistics() const
+{
+  return engine_->statistics;
+}
+
+const std::vector<std::string>& World::notes() const
+{
+  return engine_->notes;
+}
+
+}  // namespace block_world

@@ -1,0 +1,258 @@
+#include "conversions.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "block_world/scene_yaml.h"
+
+namespace block_world
+{
+namespace
+{
+Eigen::Vector2d toVector(const geometry_msgs::Point& point)
+{
+  return Eigen::Vector2d(point.x, point.y);
+}
+
+void set(msg::Input& input, const char* name, const std::optional<double>& value)
+{
+  if (!value)
+    return;
+  input.names.push_back(name);
+  input.values.push_back(*value);
+}
+
+/// Fills in the payload of an Input, one overload per command.
+struct Payload
+{
+  msg::Input& input;
+
+  void operator()(const ThrustCommand& command)
+  {
+    input.kind = msg::Input::THRUST;
+    input.thrust = toMessage(command);
+  }
+  void operator()(const SpringCommand& command)
+  {
+    input.kind = msg::Input::SPRING;
+    input.spring = toMessage(command);
+  }
+  void operator()(const WrenchCommand& command)
+  {
+    input.kind = msg::Input::WRENCH;
+    input.body = command.body;
+    input.wrench = toMessage(command);
+  }
+  void operator()(const SetCommand& command)
+  {
+    input.kind = msg::Input::SET;
+    set(input, "gravity", command.gravity);
+    set(input, "elasticity", command.elasticity);
+    set(input, "damping", command.damping);
+    set(input, "thrust", command.thrust);
+    set(input, "mass", command.mass);
+  }
+  void operator()(const SetStateCommand& command)
+  {
+    input.kind = msg::Input::SET_STATE;
+    input.state =
+        toMessage(command.body, BodyState{ command.position, command.angle, command.velocity, command.omega });
+  }
+  void operator()(const SpawnCommand& command)
+  {
+    input.kind = msg::Input::SPAWN;
+    Scene scene;
+    scene.blocks.push_back(command.block);
+    input.text = writeScene(scene);
+  }
+  void operator()(const DeleteCommand& command)
+  {
+    input.kind = msg::Input::DELETE;
+    input.body = command.body;
+  }
+  void operator()(const ResetCommand&)
+  {
+    input.kind = msg::Input::RESET;
+  }
+};
+
+std::uint8_t toKind(ContactKind kind)
+{
+  switch (kind)
+  {
+    case ContactKind::Impact:
+      return msg::Contact::IMPACT;
+    case ContactKind::RestBegin:
+      return msg::Contact::REST_BEGIN;
+    case ContactKind::RestEnd:
+      return msg::Contact::REST_END;
+    default:
+      return msg::Contact::REST;
+  }
+}
+
+}  // namespace
+
+ThrustCommand toCommand(const msg::Thrust& message)
+{
+  return { message.body, message.levels, message.duration };
+}
+
+SpringCommand toCommand(const msg::SpringForce& message, double default_stiffness, double default_damping)
+{
+  SpringCommand command;
+  command.active = message.active;
+  command.body = message.body;
+  command.attach = toVector(message.attach);
+  command.anchor = toVector(message.anchor);
+  command.stiffness = message.stiffness;
+  command.damping = message.damping;
+  command.duration = message.duration;
+  if (message.stiffness == 0.0)
+  {
+    command.stiffness = default_stiffness;
+    if (message.damping == 0.0)
+      command.damping = default_damping;
+  }
+  return command;
+}
+
+WrenchCommand toCommand(const geometry_msgs::Wrench& message, const std::string& body)
+{
+  return { body, Eigen::Vector2d(message.force.x, message.force.y), message.torque.z };
+}
+
+std::string bodyOfFrame(const World& world, const std::string& frame, const std::string& prefix)
+{
+  const std::string name = frame.substr(!frame.empty() && frame[0] == '/' ? 1 : 0);
+  if (name.compare(0, prefix.size(), prefix) == 0 && world.find(name.substr(prefix.size())) >= 0)
+    return name.substr(prefix.size());
+  return name;
+}
+
+msg::Thrust toMessage(const ThrustCommand& command)
+{
+  msg::Thrust message;
+  message.body = command.body;
+  message.levels = command.levels;
+  message.duration = command.duration;
+  return message;
+}
+
+msg::SpringForce toMessage(const SpringCommand& command)
+{
+  msg::SpringForce message;
+  message.active = command.active;
+  message.body = command.body;
+  message.attach = toPoint(command.attach);
+  message.anchor = toPoint(command.anchor);
+  message.stiffness = command.stiffness;
+  message.damping = command.damping;
+  message.duration = command.duration;
+  return message;
+}
+
+geometry_msgs::Wrench toMessage(const WrenchCommand& command)
+{
+  geometry_msgs::Wrench message;
+  message.force.x = command.force.x();
+  message.force.y = command.force.y();
+  message.torque.z = command.torque;
+  return message;
+}
+
+msg::Input toInput(const Command& command)
+{
+  msg::Input input;
+  std::visit(Payload{ input }, command);
+  return input;
+}
+
+msg::BodyState toMessage(const std::string& name, const BodyState& state)
+{
+  msg::BodyState message;
+  message.name = name;
+  message.x = state.position.x();
+  message.y = state.position.y();
+  message.angle = state.angle;
+  message.vx = state.velocity.x();
+  message.vy = state.velocity.y();
+  message.omega = state.omega;
+  return message;
+}
+
+msg::BodyStates bodyStates(const World& world)
+{
+  msg::BodyStates message;
+  message.bodies.reserve(world.bodyCount());
+  for (int body = 0; body < world.bodyCount(); ++body)
+    message.bodies.push_back(toMessage(world.name(body), world.state(body)));
+  message.state_hash = world.stateHash();
+  return message;
+}
+
+msg::Energy energy(const World& world)
+{
+  const Energy energy = world.energy();
+  msg::Energy message;
+  message.time = world.now().seconds();
+  message.gravity = energy.gravity;
+  message.spring = energy.spring;
+  message.translational = energy.translational;
+  message.rotational = energy.rotational;
+  message.total = energy.total;
+  message.thrust_work = energy.thrust_work;
+  message.spring_work = energy.spring_work;
+  message.command_work = energy.command_work;
+  message.damping_loss = energy.damping_loss;
+  message.impact_loss = energy.impact_loss;
+  message.balance_error = energy.balance_error;
+  message.momentum_x = energy.momentum_x;
+  message.momentum_y = energy.momentum_y;
+  message.angular_momentum = energy.angular_momentum;
+  return message;
+}
+
+msg::Contact toMessage(const World& world, const Contact& contact)
+{
+  msg::Contact message;
+  message.time = contact.time.seconds();
+  message.kind = toKind(contact.kind);
+  message.a = world.name(contact.a);
+  message.b = world.name(contact.b);
+  message.x = contact.point.x();
+  message.y = contact.point.y();
+  message.nx = contact.normal.x();
+  message.ny = contact.normal.y();
+  message.normal_velocity = contact.normal_velocity;
+  message.impulse = contact.impulse;
+  return message;
+}
+
+geometry_msgs::Transform toTransform(const BodyState& state)
+{
+  geometry_msgs::Transform transform;
+  transform.translation.x = state.position.x();
+  transform.translation.y = state.position.y();
+  transform.rotation.z = std::sin(state.angle / 2.0);
+  transform.rotation.w = std::cos(state.angle / 2.0);
+  return transform;
+}
+
+geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double z)
+{
+  geometry_msgs::Point message;
+  message.x = point.x();
+  message.y = point.y();
+  message.z = z;
+  return message;
+}
+
+ros::Time stamp(std::int64_t origin_ns, std::int64_t simulated_ns)
+{
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(std::max<std::int64_t>(1, origin_ns + simulated_ns)));
+  return time;
+}
+
+}  // namespace block_world

@@ -1,0 +1,183 @@
+#include "node.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace block_world
+{
+namespace
+{
+constexpr std::int64_t MS = 1000000;           // ns
+constexpr std::int64_t FOLLOWER_WAIT = 2 * MS;  // nothing wakes us when the followed clock ticks
+constexpr std::int64_t WORK_SLICE = 10 * MS;    // the engine's time between two looks at the callbacks
+constexpr std::int64_t LONGEST_SLICE = 100 * MS;
+constexpr std::int64_t LATE_LIMIT = 250 * MS;     // what is later than this is not caught up with
+constexpr std::int64_t DISPLAY_PERIOD = 33 * MS;  // at least 30 Hz, however slow the motion
+constexpr std::int64_t EVENTS_AT_ONCE = 20;       // a look at the clock costs little next to this many
+
+/// The first whole ns not before a time.
+std::int64_t wholeNanoseconds(const Time& time)
+{
+  const std::int64_t nearest = time.nanoseconds();
+  return Time::fromNanoseconds(nearest) < time ? nearest + 1 : nearest;
+}
+
+/// The same handle with callbacks going to a queue of our own.
+ros::NodeHandle onQueue(ros::NodeHandle handle, ros::CallbackQueue& queue)
+{
+  handle.setCallbackQueue(&queue);
+  return handle;
+}
+
+}  // namespace
+
+Node::Node(const ros::NodeHandle& handle, const Parameters& parameters, Scene scene)
+  : handle_(onQueue(handle, callbacks_))
+  , parameters_(parameters)
+  , world_(std::move(scene))
+  , time_(handle_, parameters.publish_clock)
+  , publishers_(handle_, world_, parameters.frame_id, parameters.tf_prefix)
+  , pacer_(time_.follows() || parameters.real_time_factor == 0.0 ? 1.0 : parameters.real_time_factor)
+  , schedule_(parameters.publish_rate)
+  , paused_(parameters.paused)
+{
+  for (const std::string& note : world_.notes())
+    ROS_WARN_STREAM(parameters_.scene << ": " << note);
+  ROS_INFO_STREAM("scene " << parameters_.scene << ": " << world_.bodyCount() << " blocks; " << time_.description()
+                           << (paused_ ? "; paused" : ""));
+}
+
+void Node::run()
+{
+  while (ros::ok() && !start())
+    ros::WallDuration(0.01).sleep();
+  while (ros::ok())
+  {
+    callbacks_.callAvailable(patience());
+    catchUp();
+    applyPending();
+    publishDue();
+  }
+}
+
+bool Node::start()
+{
+  if (!time_.findOrigin())
+  {
+    warnings_.warn("clock", "waiting for /clock (another simulator's, as ~publish_clock is false)");
+    return false;
+  }
+  publishers_.setOrigin(time_.origin());
+  publishers_.publishScene(now_ns_);
+  subscribe();
+  setPaused(paused_);
+  publishState();
+  return true;
+}
+
+ros::WallDuration Node::patience() const
+{
+  if (!isSettled() || !pending_.empty())
+    return ros::WallDuration(0);
+  std::int64_t wait = time_.follows() ? FOLLOWER_WAIT : time_.untilDue();
+  if (!paused_ && !time_.follows())
+  {
+    if (parameters_.real_time_factor == 0.0)
+      return ros::WallDuration(0);
+    wait = std::min(wait, pacer_.clockAt(schedule_.after(now_ns_)) - time_.now());
+  }
+  return ros::WallDuration(static_cast<double>(std::max<std::int64_t>(wait, 0)) * 1e-9);
+}
+
+bool Node::isSettled() const
+{
+  return world_.now() == Time::fromNanoseconds(now_ns_);
+}
+
+/// Brings the world to the simulated time that belongs to the present moment, as far as a slice of work will do it.
+void Node::catchUp()
+{
+  std::int64_t target = now_ns_;
+  if (!paused_ && parameters_.real_time_factor == 0.0 && !time_.follows())
+  {
+    target = std::numeric_limits<std::int64_t>::max();
+  }
+  else if (!paused_)
+  {
+    const std::int64_t late = pacer_.forgive(now_ns_, time_.now(), LATE_LIMIT);
+    if (late > 0)
+    {
+      lost_ += static_cast<double>(late - LATE_LIMIT) * 1e-9;
+      warnings_.warn("late", "too slow for the real-time factor asked for: simulated time falls behind, by " +
+                                 std::to_string(lost_) + " s so far");
+    }
+    target = std::max(now_ns_, pacer_.due(time_.now()));
+  }
+  advance(target, steadyNow() + WORK_SLICE);
+}
+
+/// Advances towards target, publishing the states that are due on the way; stops early at the deadline.
+void Node::advance(std::int64_t target, std::int64_t deadline)
+{
+  while ((now_ns_ < target || !isSettled()) && ros::ok())
+  {
+    const std::int64_t goal = std::min(target, schedule_.after(now_ns_));
+    advanceWorld(std::max(goal, wholeNanoseconds(world_.now())), deadline);
+    if (!isSettled())
+      return;
+    logSceneInputs();
+    if (schedule_.isDue(now_ns_))
+      publishState();
+    if (steadyNow() >= deadline)
+      return;
+  }
+}
+
+/// Commands act at whole ns, so the deadline moves the goal to the next of these. Events that crowd within one ns must not
+/// keep services from answering either: then the world is left between two of them and goes on the next time.
+void Node::advanceWorld(std::int64_t goal, std::int64_t deadline)
+{
+  while (world_.advance(Time::fromNanoseconds(goal), EVENTS_AT_ONCE) < Time::fromNanoseconds(goal))
+  {
+    const std::int64_t now = steadyNow();
+    if (!ros::ok() || now >= deadline + LONGEST_SLICE)
+      return;
+    if (now >= deadline)
+      goal = std::min(goal, wholeNanoseconds(world_.now()));
+  }
+  now_ns_ = goal;
+}
+
+void Node::setPaused(bool paused)
+{
+  paused_ = paused;
+  publishers_.setPaused(paused);
+  pacer_.anchor(now_ns_, time_.now());
+}
+
+void Node::publishState()
+{
+  time_.publish(now_ns_);
+  publishers_.publishState(now_ns_, world_.takeContacts());
+  state_ns_ = now_ns_;
+  state_sent_ = steadyNow();
+  overlay_changed_ = true;
+}
+
+/// What goes by the computer's clock.
+void Node::publishDue()
+{
+  const std::int64_t now = steadyNow();
+  time_.publish(now_ns_);
+  if (isSettled() && now_ns_ > state_ns_ && now >= state_sent_ + DISPLAY_PERIOD)
+    publishState();
+  if (overlay_changed_ && now >= overlay_sent_ + DISPLAY_PERIOD)
+  {
+    publishers_.publishOverlay(now_ns_);
+    overlay_changed_ = false;
+    overlay_sent_ = now;
+  }
+}
+
+}  // namespace block_world

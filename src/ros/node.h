@@ -1,0 +1,87 @@
+#pragma once
+
+#include <ros/callback_queue.h>
+#include <ros/node_handle.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "block_world/world.h"
+#include "messages.h"
+#include "pacing.h"
+#include "parameters.h"
+#include "publishers.h"
+#include "time_base.h"
+#include "warnings.h"
+
+namespace block_world
+{
+/// The block world as a ROS node. One thread owns the world: callbacks of topics only queue, and a command acts at the
+/// simulated time at which the loop takes it.
+class Node
+{
+public:
+  Node(const ros::NodeHandle& handle, const Parameters& parameters, Scene scene);
+
+  /// Runs until ROS shuts down.
+  void run();
+
+private:
+  struct Pending
+  {
+    const char* topic;
+    Command command;
+  };
+
+  // node.cpp: time
+  bool start();
+  ros::WallDuration patience() const;
+  void catchUp();
+  void advance(std::int64_t target, std::int64_t deadline);
+  void advanceWorld(std::int64_t goal, std::int64_t deadline);
+  bool isSettled() const;
+  void setPaused(bool paused);
+  void publishState();
+  void publishDue();
+
+  // node_commands.cpp: topics and services
+  void subscribe();
+  void onThrust(const msg::Thrust::ConstPtr& message);
+  void onSpring(const msg::SpringForce::ConstPtr& message);
+  void onWrench(const geometry_msgs::WrenchStamped::ConstPtr& message);
+  bool onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response);
+  bool onReset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool onStep(msg::Step::Request& request, msg::Step::Response& response);
+  std::vector<Pending> commandsOf(const msg::Step::Request& request) const;
+  void applyPending();
+  std::string applyAll(const std::vector<Pending>& commands);
+  std::string apply(const Command& command);
+  void logSceneInputs();
+
+  ros::NodeHandle handle_;
+  ros::CallbackQueue callbacks_;
+  const Parameters parameters_;
+  World world_;
+  std::optional<World> trial_;  ///< where commands of a step are tried first
+  TimeBase time_;
+  Publishers publishers_;
+  Warnings warnings_;
+  Pacer pacer_;
+  Schedule schedule_;
+
+  std::int64_t now_ns_ = 0;  ///< the world's time; behind it only while the engine is between two whole ns
+  bool paused_;
+  double lost_ = 0.0;        ///< s that simulated time has fallen behind for good
+  std::int64_t state_ns_ = 0, state_sent_ = 0, overlay_sent_ = 0;
+  bool overlay_changed_ = true;
+  std::vector<Pending> pending_;
+
+  std::vector<ros::Subscriber> subscribers_;
+  std::vector<ros::ServiceServer> services_;
+};
+
+}  // namespace block_world

@@ -1,0 +1,37 @@
+#include <ros/ros.h>
+
+#include <memory>
+
+#include "block_world/scene_yaml.h"
+#include "node.h"
+#include "parameters.h"
+
+namespace
+{
+std::unique_ptr<block_world::Node> makeNode()
+{
+  const ros::NodeHandle handle("~");
+  const block_world::Parameters parameters = block_world::readParameters(handle);
+  for (const std::string& name : block_world::unknownParameters(handle))
+    ROS_WARN_STREAM("unknown parameter " << name << ": not used");
+  return std::make_unique<block_world::Node>(handle, parameters, block_world::loadScene(parameters));
+}
+}  // namespace
+
+int main(int argc, char** argv)
+{
+  ros::init(argc, argv, "block_world");
+  std::unique_ptr<block_world::Node> node;
+  try
+  {
+    node = makeNode();
+  }
+  catch (const std::runtime_error& error)
+  {
+    // A parameter or a scene: the text names it, the place in it and the reason.
+    ROS_FATAL_STREAM(error.what());
+    return 2;
+  }
+  node->run();
+  return 0;
+}

@@ -1,0 +1,127 @@
+#include <gtest/gtest.h>
+
+#include "exact_cases.h"
+
+// Correct runs pass, and the checks that they are there for were really asked.
+
+namespace exact
+{
+namespace
+{
+void expectPass(const Case& item, const std::vector<std::string>& asked)
+{
+  const checker::Report report = judge(item, build(item));
+  EXPECT_TRUE(report.passed()) << failures(report);
+  for (const std::string& name : asked)
+  {
+    ASSERT_NE(report.find(name), nullptr) << name;
+    EXPECT_GT(report.find(name)->count(), 0) << name;
+  }
+}
+
+TEST(Checker, PassesAnElasticDrop)
+{
+  expectPass(flatDrop(1.0),
+             { "replay.linear_momentum", "impact.energy", "energy.conserved", "contact.normal", "overlap.impacts" });
+}
+
+TEST(Checker, PassesBouncesThatEndInSliding)
+{
+  expectPass(flatDrop(0.5),
+             { "rest.position", "rest.velocity", "rest.normal_speed", "energy.impact_loss", "rest.announced" });
+}
+
+TEST(Checker, PassesASingleImpactOffBothCentres)
+{
+  for (const double e : { 0.0, 0.5, 1.0 })
+    expectPass(offCentreHit(e),
+               { "impact.restitution", "impact.impulse", "replay.angular_momentum", "momentum.angular" });
+}
+
+TEST(Checker, PassesAnImpactAfterTheElasticityWasSet)
+{
+  expectPass(cornerOnWall(0.5), { "impact.restitution", "energy.command_work" });
+}
+
+TEST(Checker, PassesDampedFlight)
+{
+  expectPass(dampedFlight(), { "flight.position", "energy.damping_loss", "momentum.linear" });
+}
+
+TEST(Checker, PassesThrust)
+{
+  expectPass(thrust(), { "flight.velocity", "energy.thrust_work" });
+}
+
+TEST(Checker, PassesAMouseSpringBetweenSamples)
+{
+  expectPass(mouse(), { "flight.position", "energy.command_work" });
+}
+
+TEST(Checker, PassesBlocksTiedByASpring)
+{
+  expectPass(tiedPair(), { "flight.position", "energy.conserved", "momentum.linear" });
+}
+
+TEST(Checker, PassesARestingLoadThatShifts)
+{
+  expectPass(rockingLoad(), { "rest.position", "rest.velocity" });
+}
+
+TEST(Checker, PassesALongerSampleInterval)
+{
+  const checker::Report report = judge(dampedFlight(), build(dampedFlight(), 0.05));
+  EXPECT_TRUE(report.passed()) << failures(report);
+}
+
+TEST(Checker, ReadsTheSummary)
+{
+  const checker::Scene scene = checker::parseScene("{tolerance: 1.0e-6, blocks: []}");
+  const auto passes = [&](const std::string& line) {
+    checker::Report report;
+    checker::checkSummary(line, scene, report);
+    return report.passed();
+  };
+  EXPECT_TRUE(passes("note\nsummary: simulated_s=10 worst_overlap_m=9e-7 balance_error_J=1e-15 mode=exact\n"));
+  EXPECT_FALSE(passes("summary: simulated_s=10 worst_overlap_m=2e-6 mode=exact\n"));
+  EXPECT_FALSE(passes("summary: simulated_s=10 worst_overlap_m=0 mode=stepped island of block1\n"));
+  EXPECT_FALSE(passes("summary: simulated_s=10 mode=exact\n"));
+  EXPECT_THROW(passes("no such line"), std::runtime_error);
+}
+
+TEST(Checker, ReadsScenes)
+{
+  const checker::Scene scene = checker::parseScene("{count: 2, walls: {left: -6, top: 4}, blocks: [{name: p, vertices: "
+                                                   "[[0, 0], [0, 1], [1, 0]], mass: 2, pose: [0, 0, 0]},"
+                                                   " {name: q, size: [2, 1], pose: [3, 0, 0], fixed: true}, {name: r, "
+                                                   "size: [2, 1], pose: [8, 0, 0]}],"
+                                                   " springs: [{from: {block: p}, to: {block: r}}]}");
+  ASSERT_EQ(scene.blocks.size(), 2u);
+  EXPECT_TRUE(scene.springs.empty());
+  EXPECT_NEAR(scene.blocks[0].shape.gyration, 1.0 / 9.0, 1e-15);
+  EXPECT_NEAR(scene.blocks[0].shape.vertices[0].sum(), 1.0 / 3.0, 1e-15);
+  EXPECT_DOUBLE_EQ(scene.walls[0].offset, -6);
+  EXPECT_DOUBLE_EQ(scene.walls[1].offset, -4);
+  EXPECT_EQ(scene.index.at("wall_top"), 3);
+  EXPECT_NEAR((scene.blocks[1].thrusters[2].direction - Vec2(1, 0)).norm(), 0, 1e-15);
+  EXPECT_NEAR((scene.blocks[1].thrusters[2].point - Vec2(0.6, 0)).norm(), 0, 1e-15);
+  EXPECT_THROW(checker::parseScene("{blocks: [{name: a, pose: 3}]}"), std::runtime_error);
+}
+
+TEST(Checker, RefusesTornFiles)
+{
+  const Case item = cornerOnWall(0.5);
+  const Texts good = write(build(item), checker::parseScene(item.scene));
+  for (const size_t length : { size_t(0), size_t(20), good.states.size() - 30 })
+  {
+    Texts torn = good;
+    torn.states.resize(length);
+    EXPECT_THROW(judge(item.scene, torn), std::runtime_error) << length;
+  }
+  Texts words = good;
+  words.energy.replace(words.energy.find('\n') + 1, 1, "x");
+  EXPECT_THROW(judge(item.scene, words), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace exact

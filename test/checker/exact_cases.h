@@ -1,0 +1,252 @@
+#pragma once
+
+#include <algorithm>
+
+#include "exact_runs.h"
+
+// The cases: formulas only.
+
+namespace exact
+{
+/// Free flights strung together.
+struct Pieces
+{
+  double gravity = 0.0;
+  std::vector<std::pair<double, State>> starts;
+
+  State operator()(double time) const
+  {
+    size_t i = starts.size() - 1;
+    while (i > 0 && starts[i].first > time)
+      --i;
+    return freeFlight(starts[i].second, time - starts[i].first, gravity);
+  }
+};
+
+/// Sum of the steps whose time has come.
+struct Steps
+{
+  std::vector<std::pair<double, double>> steps;
+
+  double operator()(double time) const
+  {
+    double sum = 0.0;
+    for (const auto& step : steps)
+      sum += step.first <= time ? step.second : 0.0;
+    return sum;
+  }
+};
+
+inline void flatRows(Case& item, double time, Kind kind, double x, double speed, double impulse)
+{
+  for (const double side : { -0.5, 0.5 })
+    item.events.push_back(row(time, kind, 0, 1, Vec2(x + side, 0), Vec2(0, 1), -speed, 0.5 * impulse));
+}
+
+/// A square of side 1 and mass 1 dropped flat from height 2, sliding sideways: both lower corners hit at once. The
+/// first bounce slower than `capture` is the last one; then it slides on the floor.
+inline Case flatDrop(double e, double capture = 0.05)
+{
+  Case item;
+  item.scene = "{gravity: 9.8, elasticity: " + std::to_string(e) +
+               ", walls: {bottom: 0}, blocks: [{name: box, size: [1, 1], pose: [0, 2, 0], velocity: [0.5, 0, 0]}]}";
+  item.duration = 2.5;
+  item.gravity = [](double) { return 9.8; };
+  Pieces flight{ 9.8, { { 0.0, stateOf(0, 2, 0, 0.5, 0, 0) } } };
+  Pieces sliding{ 0.0, {} };
+  Steps loss;
+  double time = std::sqrt(2 * 1.5 / 9.8), speed = 9.8 * time;
+  while (time < item.duration)
+  {
+    const bool last = speed < capture;
+    const double out = last ? 0.0 : e * speed;
+    flatRows(item, time, last ? Kind::RestBegin : Kind::Impact, 0.5 * time, speed, speed + out);
+    loss.steps.emplace_back(time, 0.5 * (speed * speed - out * out));
+    if (last)
+    {
+      sliding.starts.emplace_back(time, stateOf(0.5 * time, 0.5, 0, 0.5, 0, 0));
+      item.rest_from = time;
+      break;
+    }
+    flight.starts.emplace_back(time, stateOf(0.5 * time, 0.5, 0, 0.5, out, 0));
+    time += 2 * out / 9.8;
+    speed = out;
+  }
+  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 4.9),
+                 row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 4.9) };
+  item.update_rests = [](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = 0.5 * t - 0.5;
+    rests[1].point.x() = 0.5 * t + 0.5;
+  };
+  const double from = item.rest_from;
+  item.movers = { { 1.0, 1.0 / 6.0, [=](double t) { return t < from ? flight(t) : sliding(t); } } };
+  item.impact_loss = loss;
+  return item;
+}
+
+/// A tilted square flies into the long side of a heavier block, off both centres, without gravity. `factor` spoils the
+/// elasticity.
+inline Case offCentreHit(double e, double factor = 1.0)
+{
+  Case item;
+  item.scene = "{elasticity: " + std::to_string(e) +
+               ", blocks: [{name: a, size: [1, 1], pose: [-2, 0.7, 0.3], velocity: [1, 0.1, 0]},"
+               " {name: b, size: [1, 3], mass: 2, pose: [0, 0, 0], elasticity: 1}]}";
+  item.duration = 1.0;
+  const Vec2 corner(0.5 * std::cos(0.3) + 0.5 * std::sin(0.3), 0.5 * std::sin(0.3) - 0.5 * std::cos(0.3));
+  const double hit = 2 - 0.5 - corner.x();
+  const Vec2 centre(-2 + hit, 0.7 + 0.1 * hit), point = centre + corner;
+  const double inertia_a = 1.0 / 6.0, inertia_b = 2 * 10.0 / 12.0;
+  // normal (-1, 0): arm x normal is the arm's y
+  const double j =
+      (1 + e * factor) / (1 + 0.5 + corner.y() * corner.y() / inertia_a + point.y() * point.y() / inertia_b);
+  item.events = { row(hit, Kind::Impact, 0, 1, point, Vec2(-1, 0), -1, j) };
+  const Pieces a{ 0,
+                  { { 0, stateOf(-2, 0.7, 0.3, 1, 0.1, 0) },
+                    { hit, stateOf(centre.x(), centre.y(), 0.3, 1 - j, 0.1, corner.y() * j / inertia_a) } } };
+  const Pieces b{
+    0, { { 0, stateOf(0, 0, 0, 0, 0, 0) }, { hit, stateOf(0, 0, 0, j / 2, 0, -point.y() * j / inertia_b) } }
+  };
+  item.movers = { { 1, inertia_a, a }, { 2, inertia_b, b } };
+  item.impact_loss = Steps{ { { hit, 0.5 * j * (1 - e * factor) } } };
+  return item;
+}
+
+/// A block flies at the right wall and turns while it does; `through` leaves the wall out.
+inline Case cornerOnWall(double e, bool through = false)
+{
+  Case item;
+  item.scene = "{elasticity: 1, walls: {right: 1}, blocks: [{name: a, size: [1, 1], pose: [-0.5, 0, 0.3], velocity: "
+               "[2, 0, 0]}],"
+               " inputs: [{time: 0.1, set: {elasticity: " +
+               std::to_string(e) + "}}]}";
+  const Vec2 corner(0.5 * std::cos(0.3) + 0.5 * std::sin(0.3), 0.5 * std::sin(0.3) - 0.5 * std::cos(0.3));
+  const double hit = (1.5 - corner.x()) / 2, inertia = 1.0 / 6.0;
+  const double j = 2 * (1 + e) / (1 + corner.y() * corner.y() / inertia);
+  Pieces a{ 0, { { 0, stateOf(-0.5, 0, 0.3, 2, 0, 0) } } };
+  item.movers = { { 1, inertia, a } };
+  item.duration = through ? 0.6 : 0.47;
+  if (through)
+    return item;
+  a.starts.emplace_back(hit, stateOf(1 - corner.x(), 0, 0.3, 2 - j, 0, corner.y() * j / inertia));
+  item.movers[0].state = a;
+  item.events = { row(hit, Kind::Impact, 0, 1, Vec2(1, corner.y()), Vec2(-1, 0), -2, j) };
+  item.impact_loss = Steps{ { { hit, 0.5 * j * 2 * (1 - e) } } };
+  return item;
+}
+
+/// Thrown and spinning in thick air.
+inline Case dampedFlight()
+{
+  Case item;
+  item.scene = "{gravity: 9.8, damping: 0.8, blocks: [{name: a, size: [1, 3], mass: 2, pose: [0, 0, 0], velocity: [3, "
+               "4, 5]}]}";
+  item.gravity = [](double) { return 9.8; };
+  const double rate = 0.4, inertia = 2 * 10.0 / 12.0, turning = 0.08 / inertia, fall = 9.8 / rate;
+  const auto motion = [=](double t) {
+    const double left = std::exp(-rate * t), spent = (1 - left) / rate;
+    return stateOf(3 * spent, (4 + fall) * spent - fall * t, 5 * (1 - std::exp(-turning * t)) / turning, 3 * left,
+                   (4 + fall) * left - fall, 5 * std::exp(-turning * t));
+  };
+  const auto energy = [=](double t) {
+    const State s = motion(t);
+    return s.velocity.squaredNorm() + 0.5 * inertia * s.omega * s.omega + 2 * 9.8 * s.position.y();
+  };
+  item.movers = { { 2, inertia, motion } };
+  item.damping_loss = [=](double t) { return energy(0) - energy(t); };
+  return item;
+}
+
+/// Constant push from 0.25 to 0.75 along the block by thruster 2, and a couple of thrusters 0 and 5 on another one
+/// until the end.
+inline Case thrust()
+{
+  Case item;
+  item.scene = "{thrusters: {strength: 1.5}, blocks: [{name: a, size: [1, 3], pose: [0, 0, 0]}, {name: b, size: [3, "
+               "1], pose: [9, 0, 0]}],"
+               " inputs: [{time: 0.25, thrust: {block: a, levels: [0, 0, 1, 0, 0, 0], duration: 0.5}},"
+               " {time: 0.5, thrust: {block: b, levels: [1, 0, 0, 0, 0, 1], duration: 9}}]}";
+  const double inertia = 10.0 / 12.0, alpha = 2 * 0.9 * 0.6 / inertia;
+  const auto a = [](double t) {
+    const double pushed = std::clamp(t, 0.25, 0.75) - 0.25, v = 1.5 * pushed;
+    return stateOf(0, 0.5 * v * pushed + v * std::max(0.0, t - 0.75), 0, 0, v, 0);
+  };
+  const auto b = [=](double t) {
+    const double turned = std::max(t, 0.5) - 0.5;
+    return stateOf(9, 0, 0.5 * alpha * turned * turned, 0, 0, alpha * turned);
+  };
+  item.movers = { { 1, inertia, a }, { 1, inertia, b } };
+  item.thrust_work = [=](double t) {
+    return 0.5 * a(t).velocity.squaredNorm() + 0.5 * inertia * b(t).omega * b(t).omega;
+  };
+  return item;
+}
+
+/// Seized at its centre by a mouse spring at 0.2 (between samples: 0.2003) and let go at 0.9; the gravity of the scene
+/// changes at 1.
+inline Case mouse()
+{
+  Case item;
+  item.scene = "{blocks: [{name: a, size: [1, 1], pose: [0, 0, 0], velocity: [0, 0, 1]}], inputs: ["
+               "{time: 0.2003, spring: {block: a, point: [0, 0], anchor: [1, 2], stiffness: 4, damping: 0}},"
+               "{time: 0.9, release: {block: a}}, {time: 1.0, set: {gravity: 3}}]}";
+  item.duration = 1.5;
+  const auto motion = [](double t) {
+    const double held = 2 * (std::clamp(t, 0.2003, 0.9) - 0.2003);
+    State s = stateOf(1 - std::cos(held), 2 - 2 * std::cos(held), t, 2 * std::sin(held), 4 * std::sin(held), 1);
+    s.position += s.velocity * std::max(0.0, t - 0.9) - Vec2(0, 1.5) * std::pow(std::max(0.0, t - 1), 2);
+    s.velocity.y() -= 3 * std::max(0.0, t - 1);
+    return s;
+  };
+  const auto stored = [=](double t) { return 2 * (motion(t).position - Vec2(1, 2)).squaredNorm(); };
+  item.movers = { { 1, 1.0 / 6.0, motion } };
+  item.gravity = [](double t) { return t >= 1 ? 3.0 : 0.0; };
+  item.spring = [=](double t) { return t >= 0.2003 && t < 0.9 ? stored(t) : 0.0; };
+  item.spring_work = Steps{ { { 0.2003, stored(0.2003) }, { 0.9, -stored(0.9) } } };
+  item.command_work = Steps{ { { 1.0, 3 * motion(1).position.y() } } };
+  return item;
+}
+
+/// Two blocks swing on a spring between their centres.
+inline Case tiedPair()
+{
+  Case item;
+  item.scene = "{blocks: [{name: a, size: [1, 1], pose: [0, 0, 0]}, {name: b, size: [1, 1], mass: 2, pose: [3, 0, 0]}],"
+               " springs: [{from: {block: a, point: [0, 0]}, to: {block: b, point: [0, 0]}, stiffness: 6, rest_length: "
+               "2.5}]}";
+  const auto stretch = [](double t) { return 0.5 * std::cos(3 * t); };
+  const auto rate = [](double t) { return -1.5 * std::sin(3 * t); };
+  item.movers = {
+    { 1, 1.0 / 6.0, [=](double t) { return stateOf(2.0 / 3 * (0.5 - stretch(t)), 0, 0, -2.0 / 3 * rate(t), 0, 0); } },
+    { 2, 1.0 / 3.0, [=](double t) { return stateOf(3 + 1.0 / 3 * (stretch(t) - 0.5), 0, 0, 1.0 / 3 * rate(t), 0, 0); } }
+  };
+  item.spring = [=](double t) { return 3 * stretch(t) * stretch(t); };
+  return item;
+}
+
+/// Slides to and fro on the floor on a spring above its centre: the load shifts between its two corners.
+inline Case rockingLoad()
+{
+  Case item;
+  item.scene = "{gravity: 9.8, elasticity: 0.5, walls: {bottom: 0}, blocks: [{name: a, size: [1, 1], pose: [0.8, 0.5, "
+               "0]}],"
+               " springs: [{from: {block: a, point: [0, 0.2]}, to: {point: [0, 0.7]}, stiffness: 5, rest_length: 0}]}";
+  const double omega = std::sqrt(5.0);
+  const auto x = [=](double t) { return 0.8 * std::cos(omega * t); };
+  item.movers = { { 1, 1.0 / 6.0,
+                    [=](double t) { return stateOf(x(t), 0.5, 0, -0.8 * omega * std::sin(omega * t), 0, 0); } } };
+  item.gravity = [](double) { return 9.8; };
+  item.spring = [=](double t) { return 2.5 * x(t) * x(t); };
+  item.rest_from = 0.0;
+  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0),
+                 row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0) };
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = x(t) - 0.5;
+    rests[1].point.x() = x(t) + 0.5;
+    rests[0].impulse = 4.9 + x(t);
+    rests[1].impulse = 4.9 - x(t);
+  };
+  return item;
+}
+
+}  // namespace exact

@@ -1,0 +1,255 @@
+#include <algorithm>
+
+#include "limits.h"
+#include "replay.h"
+
+// The part of Replay that looks at one instant: impulses and contact points.
+
+namespace checker
+{
+namespace
+{
+/// Rows of one time in groups that share no movable block: what happens in one cannot affect another.
+std::vector<std::vector<const ContactRow*>> groupsOf(const std::vector<const ContactRow*>& rows, const Scene& scene)
+{
+  std::vector<std::vector<const ContactRow*>> groups;
+  const auto share = [&](const ContactRow& p, const ContactRow& q) {
+    return (scene.movable(p.a) && (p.a == q.a || p.a == q.b)) || (scene.movable(p.b) && (p.b == q.a || p.b == q.b));
+  };
+  for (const ContactRow* row : rows)
+  {
+    std::vector<const ContactRow*> joined{ row };
+    for (size_t g = groups.size(); g-- > 0;)
+    {
+      if (!std::any_of(groups[g].begin(), groups[g].end(),
+                       [&](const ContactRow* other) { return share(*row, *other); }))
+        continue;
+      joined.insert(joined.end(), groups[g].begin(), groups[g].end());
+      groups.erase(groups.begin() + g);
+    }
+    groups.push_back(joined);
+  }
+  return groups;
+}
+}  // namespace
+
+double Replay::normalVelocity(const ContactRow& row, const std::vector<State>& states) const
+{
+  const auto at = [&](int body) {
+    return scene_.movable(body) ? states[body].velocityAt(row.point) : Vec2(Vec2::Zero());
+  };
+  return row.normal.dot(at(row.a) - at(row.b));
+}
+
+// A resting body is moved under the contact forces of the last sample; these turn and grow, which the interval's cube
+// bounds.
+double Replay::slack(const ContactRow& row, double since)
+{
+  double value = 0.0;
+  for (const int body : { row.a, row.b })
+  {
+    if (!scene_.movable(body) || !resting_[motion_.clusterOf(body)])
+      continue;
+    const double rate = 1.0 + std::abs(states_[body].omega);
+    value += since * since * since * rate * (rate * rate + 10.0 * held_[body].force.norm() / drive_->bodies[body].mass);
+  }
+  return value;
+}
+
+void Replay::strike(RowRange rows)
+{
+  std::vector<const ContactRow*> events;
+  for (size_t i = rows.first; i < rows.second; ++i)
+  {
+    const ContactRow& row = run_.contacts[i];
+    if (row.kind == Kind::Rest)
+      continue;
+    events.push_back(&row);
+    for (const int body : { row.a, row.b })
+    {
+      if (scene_.movable(body))
+        bring(motion_.clusterOf(body), row.time);
+    }
+  }
+  if (events.size() == 1)
+    return strikeGroup(events);
+  for (const std::vector<const ContactRow*>& group : groupsOf(events, scene_))
+    strikeGroup(group);
+}
+
+void Replay::strikeGroup(const std::vector<const ContactRow*>& group)
+{
+  std::vector<int> members;
+  for (const ContactRow* row : group)
+  {
+    if (known(row->a) && known(row->b))
+      checkRow(*row, states_, slack(*row, row->time - begin_));
+    for (const int body : { row->a, row->b })
+    {
+      if (scene_.movable(body) && std::find(members.begin(), members.end(), body) == members.end())
+        members.push_back(body);
+    }
+  }
+  const bool free =
+      std::none_of(members.begin(), members.end(), [&](int body) { return resting_[motion_.clusterOf(body)] != 0; });
+  const auto energyOf = [&](int body) { return motion_.kinetic(*drive_, body, states_[body]); };
+  double before = 0.0, after = 0.0;
+  for (const int body : members)
+    before += energyOf(body);
+  const std::vector<State> old = group.size() == 1 && free ? states_ : std::vector<State>();
+  for (const ContactRow* row : group)
+    push(*row);
+  for (const int body : members)
+    after += energyOf(body);
+  if (free)
+  {
+    account_->impact += before - after;
+    checks_.energy.add(after - before, relative_error * std::max(1.0, before), group[0]->time, group[0]->a,
+                       group[0]->b);
+  }
+  else
+    account_->known = false;
+  if (free && group.size() == 1 && group[0]->kind == Kind::Impact)
+    checkSingle(*group[0], old);
+  for (const int body : members)
+    loseIsland(body);
+}
+
+void Replay::push(const ContactRow& row)
+{
+  for (const int body : { row.a, row.b })
+  {
+    if (!scene_.movable(body))
+      continue;
+    const Vec2 impulse = (body == row.a ? 1.0 : -1.0) * row.impulse * row.normal;
+    const Vec2 arm = row.point - states_[body].position;
+    states_[body].velocity += impulse / drive_->bodies[body].mass;
+    states_[body].omega += cross(arm, impulse) / motion_.inertia(*drive_, body);
+    pushed_[body] += std::abs(row.impulse) * Vec2(1.0, arm.norm());
+    kick_[body].force += impulse;
+    kick_[body].torque += cross(arm, impulse);
+  }
+}
+
+// After an event the contact forces of a resting body are known no longer, nor are those of the bodies that lean on it.
+void Replay::loseIsland(int body)
+{
+  if (!resting_[motion_.clusterOf(body)])
+    return;
+  const int island = islandOf(motion_.clusterOf(body));
+  for (size_t cluster = 0; cluster < lost_.size(); ++cluster)
+    lost_[cluster] |= resting_[cluster] && islandOf(static_cast<int>(cluster)) == island;
+}
+
+void Replay::checkSingle(const ContactRow& row, const std::vector<State>& before)
+{
+  const double elastic = elasticity(scene_, *drive_, row.a, row.b);
+  double speed = 0.0, yielding = 0.0;
+  for (const int body : { row.a, row.b })
+  {
+    if (!scene_.movable(body))
+      continue;
+    const State& state = before[body];
+    speed += state.velocity.norm() + scene_.blocks[body].shape.radius * std::abs(state.omega);
+    const double arm = cross(row.point - state.position, row.normal);
+    yielding += 1.0 / drive_->bodies[body].mass + arm * arm / motion_.inertia(*drive_, body);
+  }
+  const double in = normalVelocity(row, before), out = normalVelocity(row, states_);
+  const double limit = 10.0 * relative_error * std::max(1.0, speed);
+  checks_.approach.add(std::abs(row.normal_velocity - in), limit, row.time, row.a, row.b);
+  checks_.restitution.add(std::abs(out + elastic * in), limit, row.time, row.a, row.b);
+  checks_.impulse.add(std::abs(row.impulse + (1.0 + elastic) * in / yielding), 2.0 * limit / yielding, row.time, row.a,
+                      row.b);
+}
+
+void Replay::checkRow(const ContactRow& row, const std::vector<State>& states, double slack)
+{
+  checks_.sign.add(std::max(0.0, -row.impulse), relative_error, row.time, row.a, row.b);
+  checks_.unit.add(std::abs(row.normal.norm() - 1.0), relative_error, row.time, row.a, row.b);
+  const double limit = scene_.tolerance * (1.0 + 1e-6) + slack + relative_error * std::max(1.0, row.point.norm());
+  double distance = 0.0, parting = 0.0;
+  for (const int body : { row.a, row.b })
+  {
+    const Vec2 outward = body == row.a ? Vec2(-row.normal) : row.normal;  // away from this body, into the other
+    const double level = outward.dot(row.point);
+    if (scene_.isWall(body))
+    {
+      const Wall& wall = scene_.wall(body);
+      distance = std::max(distance, std::abs(wall.normal.dot(row.point) - wall.offset));
+      parting = std::max(parting, (outward - wall.normal).norm());
+      continue;
+    }
+    const Outline outline = place(scene_.blocks[body].shape, states[body].position, states[body].angle);
+    distance = std::max(distance, boundaryDistance(outline, row.point));
+    parting = std::max(parting, highest(outline, outward) - level);
+  }
+  checks_.point.add(distance, limit, row.time, row.a, row.b);
+  checks_.normal.add(parting, limit, row.time, row.a, row.b);
+  if (row.kind == Kind::Rest)
+    return;
+  checks_.overlap.add(overlap(row.a, row.b, states), limit, row.time, row.a, row.b);
+}
+
+double Replay::overlap(int a, int b, const std::vector<State>& states) const
+{
+  const auto outline = [&](int body) {
+    return place(scene_.blocks[body].shape, states[body].position, states[body].angle);
+  };
+  if (scene_.isWall(a))
+    std::swap(a, b);
+  if (scene_.isWall(b))
+    return std::max(0.0, scene_.wall(b).offset - lowest(outline(a), scene_.wall(b).normal));
+  return std::max(0.0, -separation(outline(a), outline(b)));
+}
+
+void Replay::checkRest(size_t sample)
+{
+  const std::vector<State> states(run_.states.begin() + sample * run_.bodies,
+                                  run_.states.begin() + (sample + 1) * run_.bodies);
+  for (size_t i = sample == 0 ? 0 : rows_end_[sample - 1]; i < rows_end_[sample]; ++i)
+  {
+    const ContactRow& row = run_.contacts[i];
+    if (row.kind != Kind::Rest)
+      continue;
+    checkRow(row, states, 0.0);
+    double speed = 1.0;
+    for (const int body : { row.a, row.b })
+    {
+      if (scene_.movable(body))
+        speed += states[body].velocity.norm() + scene_.blocks[body].shape.radius * std::abs(states[body].omega);
+    }
+    checks_.rest_speed.add(std::abs(normalVelocity(row, states)), 100.0 * relative_error * speed, row.time, row.a,
+                           row.b);
+  }
+}
+
+// A pair that carries force at one end of an interval only must have had an event of its island, or a change of the
+// drive.
+void Replay::checkRestSet(size_t sample)
+{
+  std::vector<std::pair<int, int>> sets[2];
+  for (size_t i = sample == 1 ? 0 : rows_end_[sample - 2]; i < rows_end_[sample]; ++i)
+  {
+    const ContactRow& row = run_.contacts[i];
+    if (row.kind == Kind::Rest && row.time >= begin_)
+      sets[row.time == begin_ ? 0 : 1].emplace_back(std::minmax(row.a, row.b));
+  }
+  if (sets[0].empty() && sets[1].empty())
+    return;
+  const bool changes = timeline_.firstAfter(begin_) != timeline_.firstAfter(end_);
+  for (auto& set : sets)
+    std::sort(set.begin(), set.end());
+  for (const auto* set : { &sets[0], &sets[1] })
+  {
+    const auto& other = set == &sets[0] ? sets[1] : sets[0];
+    for (const auto& pair : *set)
+    {
+      const int body = scene_.movable(pair.first) ? pair.first : pair.second;
+      const bool good = changes || eventful_[islandOf(motion_.clusterOf(body))] ||
+                        std::binary_search(other.begin(), other.end(), pair);
+      checks_.rest_set.add(good ? 0.0 : 1.0, 0.0, end_, pair.first, pair.second);
+    }
+  }
+}
+
+}  // namespace checker

@@ -1,0 +1,179 @@
+// The outcomes that the comments of the shipped scenes promise.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "block_world/scene_yaml.h"
+#include "block_world/world.h"
+
+namespace block_world
+{
+namespace
+{
+Scene load(const std::string& name)
+{
+  return loadSceneFile(std::string(BLOCK_WORLD_DIR) + "/config/scenes/" + name + ".yaml");
+}
+
+World makeWorld(const std::string& name)
+{
+  return World(load(name));
+}
+
+BodyState stateAt(World& world, const std::string& block, double seconds)
+{
+  world.advance(Time::fromSeconds(seconds));
+  return world.state(world.find(block));
+}
+
+/// Sum of the resting forces on a wall.
+double forceOn(const World& world, const std::string& wall)
+{
+  double sum = 0.0;
+  for (const Contact& contact : world.restingContacts())
+    if (world.name(contact.a) == wall || world.name(contact.b) == wall)
+      sum += contact.impulse;
+  return sum;
+}
+
+void expectExact(const World& world)
+{
+  EXPECT_EQ(world.statistics().mode, "exact");
+  EXPECT_LT(world.statistics().worst_overlap, world.scene().tolerance);
+  EXPECT_NEAR(world.energy().balance_error, 0.0, 1e-9);
+}
+
+TEST(ShippedScenes, SixBlocksKeepTheirEnergy)
+{
+  World world = makeWorld("six_blocks");
+  world.advance(Time::fromSeconds(60.0));
+  EXPECT_NEAR(world.energy().total, 1.242125207475, 1e-11);
+  EXPECT_GT(world.statistics().impacts, 5);
+  expectExact(world);
+}
+
+TEST(ShippedScenes, SpringsKeepTheirEnergy)
+{
+  World world = makeWorld("springs");
+  const double total = world.energy().total;
+  world.advance(Time::fromSeconds(20.0));
+  EXPECT_NEAR(world.energy().total, total, 1e-9);
+  expectExact(world);
+}
+
+TEST(ShippedScenes, ContactForcesEndAtTheWeight)
+{
+  World world = makeWorld("contact_forces");
+  world.advance(Time::fromSeconds(60.0));
+  EXPECT_NEAR(forceOn(world, "wall_bottom"), 18.0, 1e-6);
+  EXPECT_NEAR(forceOn(world, "wall_left"), forceOn(world, "wall_right"), 1e-6);
+  expectExact(world);
+}
+
+TEST(ShippedScenes, PileEndsAtTheWeight)
+{
+  World world = makeWorld("pile");
+  world.advance(Time::fromSeconds(60.0));
+  EXPECT_NEAR(forceOn(world, "wall_bottom"), 980.0, 1e-4);
+  EXPECT_NEAR(forceOn(world, "wall_left"), forceOn(world, "wall_right"), 1e-4);
+  expectExact(world);
+}
+
+TEST(ShippedScenes, DropComesToRest)
+{
+  World world = makeWorld("drop");
+  const BodyState box = stateAt(world, "box", 4.0);
+  EXPECT_NEAR(box.position.x(), 2.0, 1e-13);
+  EXPECT_NEAR(box.position.y(), 0.125, 1e-13);
+  EXPECT_NEAR(box.angle, 0.0, 1e-13);
+  EXPECT_NEAR(box.velocity.x(), 0.5, 1e-13);
+  EXPECT_NEAR(box.velocity.y(), 0.0, 1e-13);
+  expectExact(world);
+}
+
+TEST(ShippedScenes, StackStandsAndCarries)
+{
+  World world = makeWorld("stack");
+  world.advance(Time::fromSeconds(100.0));
+  std::map<int, double> force;  // by the height of the contact
+  for (const Contact& contact : world.restingContacts())
+    force[static_cast<int>(std::lround(contact.point.y()))] += contact.impulse;
+  ASSERT_EQ(force.size(), 10u);
+  for (int i = 1; i <= 10; ++i)
+  {
+    EXPECT_NEAR(force[i - 1], (11 - i) * 9.8, 1e-9);
+    EXPECT_NEAR(world.state(i - 1).position.y(), i - 0.5, 1e-13);
+    EXPECT_NEAR(world.state(i - 1).position.x(), 0.0, 1e-13);
+  }
+  expectExact(world);
+}
+
+TEST(ShippedScenes, CradlePassesTheSpeedOn)
+{
+  World world = makeWorld("cradle");
+  world.advance(Time::fromSeconds(1.0));
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(world.state(i).velocity.x(), i == 4 ? 1.0 : 0.0, 1e-14) << i;
+  expectExact(world);
+}
+
+TEST(ShippedScenes, LadderLeavesTheWall)
+{
+  World world = makeWorld("ladder");
+  const double release = 0.430271335196;
+  EXPECT_NEAR(stateAt(world, "ladder", release).omega, 2.201819890171, 1e-10);
+  EXPECT_NEAR(stateAt(world, "ladder", release + 0.05).velocity.x(), 1.271221306297, 1e-11);
+  for (const Contact& contact : world.takeContacts())
+    if (contact.kind == ContactKind::RestEnd)
+    {
+      EXPECT_NEAR(contact.time.seconds(), release, 1e-11);
+    }
+  expectExact(world);
+}
+
+TEST(ShippedScenes, PiByCollisions)
+{
+  for (const auto& [mass, impacts] : std::map<double, int>{ { 1.0, 3 }, { 1e2, 31 }, { 1e4, 314 }, { 1e6, 3141 } })
+  {
+    Scene scene = load("pi_collisions");
+    scene.blocks.front().mass = mass;
+    World world(scene);
+    world.advance(Time::fromSeconds(10.0));
+    EXPECT_EQ(world.statistics().impacts, impacts);
+    expectExact(world);
+  }
+}
+
+TEST(ShippedScenes, TableSlide)
+{
+  World world = makeWorld("table_slide");
+  const BodyState box = stateAt(world, "box", 1.5);
+  EXPECT_NEAR(box.position.x(), 1.053391145637, 1e-8);
+  EXPECT_NEAR(box.position.y(), 0.223733130632, 1e-8);
+  EXPECT_NEAR(box.angle, -5.893713751953, 1e-8);
+  expectExact(world);
+}
+
+TEST(ShippedScenes, Thrusters)
+{
+  World world = makeWorld("thrusters");
+  const BodyState lift = stateAt(world, "lift", 5.0);
+  EXPECT_NEAR(lift.position.y(), 0.75, 1e-13);
+  EXPECT_NEAR(lift.velocity.norm(), 0.0, 1e-13);
+  EXPECT_NEAR(stateAt(world, "spin", 5.0).omega, 1.296, 1e-13);
+  EXPECT_NEAR(stateAt(world, "pulled", 5.0).velocity.x(), std::sqrt(3.0), 1e-13);
+  EXPECT_NEAR(stateAt(world, "pushed", 5.0).velocity.y(), 2.0, 1e-13);
+  expectExact(world);
+}
+
+}  // namespace
+}  // namespace block_world
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
