@@ -184,7 +184,7 @@ double ContactGroup::stop(const std::vector<int>& rows, bool pulling)
   return loss;
 }
 
-/// Which slow touches the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces.
+/// Which slow and closed touches the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces.
 void ContactGroup::solveRest()
 {
   slow_.clear();
@@ -192,7 +192,8 @@ void ContactGroup::solveRest()
   for (std::size_t i = 0; i < touches.size(); ++i)
   {
     touches[i].force = 0.0;
-    if (touches[i].corner || std::abs(velocityOf(static_cast<int>(i))) > rest_speed_[i])
+    const double limit = pulling_ ? rest_speed_[i] : noise_;
+    if (touches[i].corner || touches[i].gap > closed_ || std::abs(velocityOf(static_cast<int>(i))) > limit)
       continue;
     slow_.push_back(static_cast<int>(i));
     b_.push_back(normalAcceleration(touches[i], members[touches[i].member_a], members[touches[i].member_b]));
@@ -237,6 +238,15 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
   return 1.0 - sum < 1e-12;  // the minimum is -sum/2
 }
 
+/// Closed touches that do not open faster than what counts as slow.
+void ContactGroup::approachingSlowly()
+{
+  slow_.clear();
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (touches[i].gap <= closed_ && velocityOf(static_cast<int>(i)) <= rest_speed_[i])
+      slow_.push_back(static_cast<int>(i));
+}
+
 double ContactGroup::collide(const ContactScales& scales)
 {
   const int n = static_cast<int>(touches.size());
@@ -245,6 +255,7 @@ double ContactGroup::collide(const ContactScales& scales)
     touch.impulse = touch.capture = touch.force = 0.0;
     touch.active = false;
   }
+  closed_ = scales.closed;
   scale(scales);
   all_.clear();
   for (int i = 0; i < n; ++i)
@@ -252,6 +263,7 @@ double ContactGroup::collide(const ContactScales& scales)
 
   double loss = 0.0;
   bool locked = false;
+  pulling_ = true;
   const int cap = 100 * (n + 10);
   for (int stage = 0; stage < cap; ++stage)
   {
@@ -261,22 +273,29 @@ double ContactGroup::collide(const ContactScales& scales)
         fast_.push_back(i);
     if (fast_.empty())
     {
+      if (!pulling_)
+      {
+        approachingSlowly();
+        loss += stop(slow_, false);
+      }
       solveRest();
-      // What approaches slowly without being pressed is no end of a series of bounces: it is reflected like any other.
-      for (int i = 0; i < n; ++i)
-        if (velocityOf(i) < -noise_ && std::find(pressed_.begin(), pressed_.end(), i) == pressed_.end())
+      // A slow one that is still open comes to its own contact. What approaches slowly without being pressed is no end of a series of bounces: it is
+      // reflected like any other.
+      for (int i = 0; i < n && pulling_; ++i)
+        if (touches[i].gap <= closed_ && velocityOf(i) < -noise_ && std::find(pressed_.begin(), pressed_.end(), i) == pressed_.end())
           fast_.push_back(i);
       if (fast_.empty())
       {
-        const double captured = stop(pressed_, true);
-        loss += captured;
+        loss += stop(pressed_, true);
         former_ = pressed_;
         solveRest();
         bool quiet = pressed_ == former_;
         for (int i = 0; i < n && quiet; ++i)
-          quiet = !(velocityOf(i) < -std::max(noise_, 1e-15 * rest_speed_[i]));
-        if (quiet)
+          quiet = velocityOf(i) >= (touches[i].gap > closed_ ? -rest_speed_[i] : -noise_);
+        if (quiet || stage > cap / 2)
           break;
+        // The capture made another one approach: from here on what is slow only stops, and nothing is held back.
+        pulling_ = false;
         continue;
       }
     }

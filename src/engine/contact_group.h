@@ -12,6 +12,7 @@ struct ContactScales
 {
   double tolerance = 1e-6;      ///< m, the contact shell
   double resolution = 1e-14;    ///< m, what the coordinates can resolve
+  double closed = 1e-13;        ///< m, a gap up to this is zero but for rounding
   bool dissipative = false;     ///< damping or a damper takes energy between impacts
 };
 
@@ -47,10 +48,15 @@ public:
   /// After settlePositions and with the new geometry: the active touches neither approach nor open. Returns the energy lost.
   double holdActive();
 
-  /// Largest free acceleration, and the speeds below which a touch counts as resting or as not moving at all.
+  /// Largest free acceleration, m/s^2.
   double accelerationScale() const
   {
     return acceleration_scale_;
+  }
+  /// Speed below which a velocity is rounding, m/s.
+  double noise() const
+  {
+    return noise_;
   }
 
 private:
@@ -62,6 +68,7 @@ private:
   void clean();
   bool anyElastic(const std::vector<int>& rows) const;
   void solveRest();
+  void approachingSlowly();
   bool isLocked(const std::vector<int>& rows);
   void place(Member& member, const Vec2& shift, double turn);
 
@@ -76,7 +83,8 @@ private:
     double x = 0.0, y = 0.0, omega = 0.0;
   };
   std::vector<Size> sizes_;
-  double acceleration_scale_ = 0.0, noise_ = 0.0;
+  double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
+  bool pulling_ = true;  ///< the first capture of an event holds back what opens slowly
 };
 
 }  // namespace block_world

@@ -160,7 +160,7 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
   {
     // Nothing turns and nothing ends: a parabola, which from zero either opens by more than can be resolved or is guarded a level below.
     const bool opens = gap > resolution_ || (g[1] > 0.0 && g[1] * g[1] > -4.0 * resolution_ * g[2]);
-    const double zero = firstZero(opens ? std::max(gap, 0.0) : 0.25 * tolerance_, g[1], 2.0 * g[2]);
+    const double zero = firstZero(opens ? std::max(gap, 0.0) : guard_, g[1], 2.0 * g[2]);
     return { zero, zero < kNever };
   }
   if (gap > resolution_)
@@ -170,7 +170,7 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
   }
   // From zero the gap may open like s, s^2 or s^3, and rounding hides its first coefficients: guard a level below, then go back to the last zero
   // from above if the gap did open in between.
-  double end = firstBelow(g, kOrder, span, std::min(gap, 0.0) - 0.25 * tolerance_);
+  double end = firstBelow(g, kOrder, span, std::min(gap, 0.0) - guard_);
   if (end == kNever)
     return { span, false };
   constexpr int kLooks = 16;

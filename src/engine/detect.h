@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "body.h"
@@ -44,6 +45,13 @@ public:
   {
     tolerance_ = tolerance;
     resolution_ = resolution;
+    guard_ = std::min(0.25 * tolerance, 16.0 * resolution);
+  }
+
+  /// m; a gap that is zero but for rounding is guarded this far below: above its rounding, far below the tolerance.
+  double guard() const
+  {
+    return guard_;
   }
 
   /// Cheap part of the promise: span in s for which the circles (or circle and half-plane) stay apart; negative if they are near.
@@ -64,6 +72,7 @@ private:
   void localSeries(const View& view, bool of_face);
 
   double tolerance_ = 1e-6, resolution_ = 1e-14;
+  double guard_ = 1e-13;
   Time time_;
   struct Local
   {

@@ -18,6 +18,9 @@ double cleaned(double sum, double size)
 /// Position scale times this is the truncation error allowed per arc: rounding.
 constexpr double kTruncation = 1e-15;
 
+/// Largest contact force times this is the truncation error allowed for a contact force.
+constexpr double kForceTruncation = 1e-13;
+
 /// s; arcs that are no parabolas are expanded anew at least this often, so that bounds over their horizon stay finite.
 constexpr double kLongest = 1048576.0;
 }  // namespace
@@ -408,13 +411,17 @@ bool Flow::store(int n)
   return any;
 }
 
-/// After order 2: without damping, springs and (where something turns with a body) rotation, everything else is zero.
+/// After order 2: without damping, springs and (where something turns with a body) rotation, everything else is zero. Contact forces change along
+/// such a parabola only where a vertex slides along the face of a body that moves, whose lever then changes.
 bool Flow::endsEarly() const
 {
   if (field_->damping != 0.0 || !links_.empty())
     return false;
   for (std::size_t i = 0; i < work_.size(); ++i)
     if (work_[i].rotating && work_[i].trigonometric)
+      return false;
+  for (const RestWork& r : rest_work_)
+    if (r.b >= 0 && (r.dx[1] != 0.0 || r.dy[1] != 0.0 || r.dx[2] != 0.0 || r.dy[2] != 0.0))
       return false;
   return true;
 }
@@ -425,6 +432,13 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   if (degree > 2)
   {
     horizon = kLongest;
+    double largest = 0.0;
+    for (const Rest& rest : *rests_)
+      largest = std::max(largest, std::abs(rest.force[0]));
+    for (const Rest& rest : *rests_)
+      for (int n : { degree - 3, degree - 2 })
+        if (rest.force[n] != 0.0)
+          horizon = std::min(horizon, 0.8 * std::pow(kForceTruncation * largest / std::abs(rest.force[n]), 1.0 / n));
     for (std::size_t i = 0; i < work_.size(); ++i)
     {
       const Arc& arc = body_[i]->arc;

@@ -210,14 +210,15 @@ void World::Engine::report(const Time& time, bool last)
     for (const Rest& former : former_rests_)
       fresh = fresh && !same(former.touch, t);
     const double impulse = t.impulse + t.capture;
-    const bool hit = t.impulse > 0.0 || std::abs(impulse) > 1e-14 * std::abs(t.approach) / contactGram(t, t, group_.members);
+    const double threshold = group_.noise() / contactGram(t, t, group_.members);
+    const bool hit = std::abs(impulse) > threshold;
     if (hit && !(fresh && last))
     {
       Contact contact = contactOf(t, ContactKind::Impact);
       contact.impulse = impulse;
       contacts.push_back(contact);
     }
-    if (t.impulse > 0.0 && t.pair != last_pair)
+    if (t.impulse > threshold && t.pair != last_pair)
     {
       ++statistics.impacts;
       last_pair = t.pair;
@@ -263,6 +264,7 @@ void World::Engine::resolve(const Time& time)
   ContactScales scales;
   scales.tolerance = scene.tolerance;
   scales.resolution = resolution_;
+  scales.closed = 2.0 * detector_.guard();
   scales.dissipative = dissipative_;
   former_rests_.clear();
   // Corner on corner is decided by the velocities: look again with the new ones.
@@ -303,9 +305,9 @@ void World::Engine::resolve(const Time& time)
 /// Gaps of the touches that carry force become exactly zero, and so do their rates.
 void World::Engine::settle()
 {
-  for (int pass = 0; pass < 3; ++pass)
+  for (int pass = 0; pass < 8; ++pass)
   {
-    const double moved = group_.settlePositions(resolution_, impact_loss_);
+    const double moved = group_.settlePositions(2.0 * detector_.guard(), impact_loss_);
     if (moved == 0.0)
       return;
     for (Touch& t : group_.touches)

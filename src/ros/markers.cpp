@@ -255,8 +255,8 @@ Marker Overlay::flames(const World& world) const
       // A flame points against the force.
       const Eigen::Vector2d root = state.position + turned(thruster.point, state.angle);
       const Eigen::Vector2d along = -turned(thruster.direction, state.angle);
-      const Eigen::Vector2d across = 0.1 * size_ * Eigen::Vector2d(-along.y(), along.x());
-      const double length = 0.2 * size_ + levels[i] * thruster.strength * metre_per_n_;
+      const Eigen::Vector2d across = 0.14 * size_ * Eigen::Vector2d(-along.y(), along.x());
+      const double length = 0.3 * size_ + levels[i] * thruster.strength * metre_per_n_;
       for (const Eigen::Vector2d& corner : { Point(root - across), Point(root + length * along), Point(root + across) })
         marker.points.push_back(toPoint(corner, OVERLAY_Z));
       marker.colors.push_back(color(1., .8, .1));
@@ -270,7 +270,7 @@ Marker Overlay::flames(const World& world) const
 Marker Overlay::forces(const World& world) const
 {
   Marker marker = makeMarker("", "contact_forces", 0, Marker::LINE_LIST);
-  marker.scale.x = 0.03 * size_;
+  marker.scale.x = 0.045 * size_;
   marker.color = color(.8, 0., 0.);
   for (const Contact& contact : world.restingContacts())
     if (contact.impulse > 0.0)

@@ -86,6 +86,7 @@ ros::WallDuration Node::patience() const
     if (parameters_.real_time_factor == 0.0)
       return ros::WallDuration(0);
     wait = std::min(wait, pacer_.clockAt(schedule_.after(now_ns_)) - time_.now());
+    wait = std::min(wait, state_sent_ + DISPLAY_PERIOD - steadyNow());
   }
   return ros::WallDuration(static_cast<double>(std::max<std::int64_t>(wait, 0)) * 1e-9);
 }
@@ -105,7 +106,8 @@ void Node::catchUp()
   }
   else if (!paused_)
   {
-    const std::int64_t late = pacer_.forgive(now_ns_, time_.now(), LATE_LIMIT);
+    // A followed clock may jump where its owner steps: then this world has to catch up however long it takes.
+    const std::int64_t late = time_.follows() ? 0 : pacer_.forgive(now_ns_, time_.now(), LATE_LIMIT);
     if (late > 0)
     {
       lost_ += static_cast<double>(late - LATE_LIMIT) * 1e-9;

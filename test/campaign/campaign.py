@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 """Random starts of the six-block scene, simulated and judged by the checker.
 
-    campaign.py --simulate build/simulate --checker build/checker [--starts 20] [--jobs 2] [--gravity 3] [--elasticity 0.8]
+    campaign.py --simulate build/simulate --checker build/checker [--starts 20] [--jobs 2] [--gravity 3]
 
-Six blocks of 1 x 3 m and 1 kg in a box of 12 x 12 m, at random places that do not overlap, with random velocities: for every
-gravity and elasticity, 20 s each. A run is stuck when it has not reached its end within the limit of CPU time or was not exact
-throughout. The same options give the same starts on every machine. Exit status: 0 nothing wrong, 1 something, 2 cannot run.
+Six blocks of 1 x 3 m and 1 kg in a box of 12 x 12 m, at random places that do not overlap, with random
+velocities: for every gravity and elasticity, 20 s each. A run is stuck when it has not reached its end within
+the limit of CPU time or was not exact throughout. The same options give the same starts on every machine.
+Exit status: 0 nothing wrong, 1 something, 2 cannot run.
 """
 import argparse
 import concurrent.futures
@@ -89,7 +90,8 @@ def run_one(options, gravity, elasticity, start):
     result["command"] = [options.simulate, path("scene.yaml"), "--duration", str(options.duration), "--sample", "0.001"]
     result["command"] += files
     with open(path("log"), "w") as log:
-        done = subprocess.run(result["command"], stdout=subprocess.DEVNULL, stderr=log, preexec_fn=limit_cpu(options.cpu))
+        done = subprocess.run(result["command"], stdout=subprocess.DEVNULL, stderr=log,
+                              preexec_fn=limit_cpu(options.cpu))
     read_summary(path("log"), done.returncode, options, result)
     if result["stuck"] is None:
         judge(options, path, files, result)

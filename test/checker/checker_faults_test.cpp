@@ -65,6 +65,11 @@ TEST(CheckerFaults, RestitutionOnePercentOff)
   expectFault(spoil(offCentreHit(0.5, 0.99), nothing), { "impact.restitution", "impact.impulse" }, {});
 }
 
+TEST(CheckerFaults, BounceLeftOut)
+{
+  expectFault(spoil(slowHit(0.05), nothing), { "impact.restitution", "impact.impulse" }, {});
+}
+
 TEST(CheckerFaults, ElasticityBeyondOneGainsEnergy)
 {
   expectFault(spoil(offCentreHit(1.0, 1.02), nothing),

@@ -43,6 +43,11 @@ TEST(Checker, PassesAnImpactAfterTheElasticityWasSet)
   expectPass(cornerOnWall(0.5), { "impact.restitution", "energy.command_work" });
 }
 
+TEST(Checker, PassesABounceTooLowToTellFromRest)
+{
+  expectPass(slowHit(0.005), { "impact.restitution" });
+}
+
 TEST(Checker, PassesDampedFlight)
 {
   expectPass(dampedFlight(), { "flight.position", "energy.damping_loss", "momentum.linear" });

@@ -135,6 +135,33 @@ inline Case cornerOnWall(double e, bool through = false)
   return item;
 }
 
+/// A falling tilted square drifts into the wall and does not bounce at all, whatever its elasticity.
+inline Case slowHit(double speed)
+{
+  Case item;
+  item.scene = "{gravity: 9.8, elasticity: 0.8, walls: {right: 0}, blocks: [{name: a, size: [1, 1], pose: [-1, 0, "
+               "0.3], velocity: [" +
+               std::to_string(speed) + ", 0, 0]}]}";
+  const Vec2 corner(0.5 * std::cos(0.3) + 0.5 * std::sin(0.3), 0.5 * std::sin(0.3) - 0.5 * std::cos(0.3));
+  const double start = -corner.x() - 0.1 * speed, hit = 0.1, inertia = 1.0 / 6.0, drop = 0.5 * 9.8 * hit * hit;
+  std::ostringstream place;
+  place.precision(17);
+  place << "pose: [" << start;
+  item.scene.replace(item.scene.find("pose: [-1"), 9, place.str());
+  const double j = speed / (1 + corner.y() * corner.y() / inertia);
+  item.movers = {
+    { 1, inertia,
+      Pieces{ 9.8,
+              { { 0, stateOf(start, 0, 0.3, speed, 0, 0) },
+                { hit, stateOf(-corner.x(), -drop, 0.3, speed - j, -9.8 * hit, corner.y() * j / inertia) } } } }
+  };
+  item.duration = 0.2;
+  item.gravity = [](double) { return 9.8; };
+  item.events = { row(hit, Kind::Impact, 0, 1, Vec2(0, corner.y() - drop), Vec2(-1, 0), -speed, j) };
+  item.impact_loss = Steps{ { { hit, 0.5 * j * speed } } };
+  return item;
+}
+
 /// Thrown and spinning in thick air.
 inline Case dampedFlight()
 {

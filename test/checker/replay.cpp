@@ -181,11 +181,15 @@ void Replay::markEvents(RowRange rows)
 {
   std::fill(eventful_.begin(), eventful_.end(), 0);
   std::vector<double> began;
+  double shift_time = -1.0;  // where a rest begins or ends, everything that meets there may be shifted
   for (size_t i = rows.first; i < rows.second; ++i)
   {
     const ContactRow& row = run_.contacts[i];
     if (row.kind == Kind::Rest)
       continue;
+    for (size_t j = i; j < rows.second && run_.contacts[j].time == row.time && shift_time != row.time; ++j)
+      shift_time =
+          run_.contacts[j].kind == Kind::RestBegin || run_.contacts[j].kind == Kind::RestEnd ? row.time : shift_time;
     if (began.empty())
       began.assign(resting_.size(), end_);
     for (const int body : { row.a, row.b })
@@ -194,7 +198,7 @@ void Replay::markEvents(RowRange rows)
         continue;
       const int cluster = motion_.clusterOf(body);
       eventful_[islandOf(cluster)] = 1;
-      moved_[body] |= row.kind != Kind::Impact;
+      moved_[body] |= row.time == shift_time;
       if (row.kind == Kind::RestBegin)
         began[cluster] = std::min(began[cluster], row.time);
       if (row.kind == Kind::RestEnd && began[cluster] < row.time)

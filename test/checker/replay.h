@@ -88,6 +88,7 @@ private:
   void checkRestSet(size_t sample);
   double normalVelocity(const ContactRow& row, const std::vector<State>& states) const;
   double overlap(int a, int b, const std::vector<State>& states) const;
+  double captureSpeed(const ContactRow& row, const std::vector<State>& states) const;
   double slack(const ContactRow& row, double since);
 
   const Scene& scene_;
@@ -113,7 +114,7 @@ private:
   std::vector<Vec2> pushed_;          ///< per body: sums of |impulse| and of |impulse| x arm
   std::vector<Load> kick_;            ///< per body: impulse and its moment
   std::vector<double> leaning_;       ///< per body: sum of the contact forces at both samples
-  std::vector<char> moved_;           ///< per body: a rest began or ended, which may shift it by the tolerance
+  std::vector<char> moved_;           ///< per body: a rest began or ended near it, which may shift it by the tolerance
 };
 
 }  // namespace checker

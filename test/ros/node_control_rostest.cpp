@@ -232,7 +232,7 @@ TEST_F(NodeControl, badCommandsChangeNothing)
 {
   client.reset();
   const std::uint64_t before = client.hash();
-  Listener<rosgraph_msgs::Log> log("/rosout_agg", 1000);
+  Listener<rosgraph_msgs::Log> log("/rosout", 1000);
   Listener<msg::Input> inputs(client.topic(topics::INPUTS), 100);
   ASSERT_TRUE(log.waitForPublisher() && inputs.waitForCount(1));
 

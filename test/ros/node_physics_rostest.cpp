@@ -157,8 +157,8 @@ TEST(NodePhysics, comesToRest)
     for (const msg::Contact& contact : message.contacts)
       if (contact.kind == msg::Contact::REST_BEGIN)
         rest_begin = contact.time;
-  // The engine ends the endless series of bounces within its tolerance: sqrt(8 tolerance / g) is a bounce of that height.
-  EXPECT_NEAR(rest_begin, end, 1e-3);
+  // The engine takes the last bounces together, those no higher than a few tolerances: sqrt(8 h / g) each, some ms in all.
+  EXPECT_NEAR(rest_begin, end, 5e-3);
 }
 
 TEST(NodePhysics, thrustForOneSecond)
