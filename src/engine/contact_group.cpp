@@ -345,7 +345,7 @@ double ContactGroup::settlePositions(double resolution, double& loss)
   for (std::size_t i = 0; i < touches.size(); ++i)
   {
     const Touch& t = touches[i];
-    if (t.corner || !(t.active || t.gap < -resolution))
+    if (t.corner || !(t.active || std::max(t.gap, t.separation) < -resolution))
       continue;
     slow_.push_back(static_cast<int>(i));
     lowest = std::max(lowest, std::abs(t.gap));

@@ -56,8 +56,8 @@ private:
     const SpringLink* link = nullptr;
     const MouseSpring* mouse = nullptr;
     int first = -1, second = -1;  ///< work indices; -1 = fixed
-    Vec2 first_point, second_point;
-    double stiffness, rest_length, damping;
+    Vec2 first_point = Vec2::Zero(), second_point = Vec2::Zero();
+    double stiffness = 0.0, rest_length = 0.0, damping = 0.0;
     SpringSeries series;
     Vec2 world = Vec2::Zero();  ///< the second end where it does not move
   };

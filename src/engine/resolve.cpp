@@ -182,7 +182,7 @@ void World::Engine::findTouches(const Time& time)
   {
     touch.member_a = member_of_[touch.a];
     touch.member_b = member_of_[touch.b];
-    statistics.worst_overlap = std::max(statistics.worst_overlap, -touch.gap);
+    statistics.worst_overlap = std::max(statistics.worst_overlap, -touch.separation);
   }
 }
 
@@ -318,6 +318,7 @@ void World::Engine::settle()
       t.reach = a.frame.position + t.arm - b.frame.position;
       if (!t.corner)
         t.normal = b.frame.rotate(face.normal);
+      t.separation += t.normal.dot(t.reach) - face.offset - t.gap;
       t.gap = t.normal.dot(t.reach) - face.offset;
     }
     if (moved <= 8.0 * resolution_)

@@ -82,6 +82,7 @@ void TouchFinder::gather(const Candidate& candidate, const Body& face_body, cons
     touch.vertex = static_cast<int>(k);
     touch.face = candidate.face;
     touch.normal = candidate.normal;
+    touch.separation = candidates_.front().gap;
     touch.elasticity = std::min(face_body.elasticity, vertex_body.elasticity);
     touches.push_back(touch);
   }

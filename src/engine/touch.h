@@ -32,6 +32,7 @@ struct Touch
   Vec2 arm = Vec2::Zero();     ///< r
   Vec2 reach = Vec2::Zero();   ///< d
   double gap = 0.0;            ///< m
+  double separation = 0.0;     ///< m, of the two bodies: more than the gap where another face parts them
   double along = 0.0;          ///< m, from the start of the face
   double elasticity = 1.0;
 

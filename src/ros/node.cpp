@@ -42,10 +42,18 @@ Node::Node(const ros::NodeHandle& handle, const Parameters& parameters, Scene sc
   , schedule_(parameters.publish_rate)
   , paused_(parameters.paused)
 {
-  for (const std::string& note : world_.notes())
-    ROS_WARN_STREAM(parameters_.scene << ": " << note);
   ROS_INFO_STREAM("scene " << parameters_.scene << ": " << world_.bodyCount() << " blocks; " << time_.description()
                            << (paused_ ? "; paused" : ""));
+  tellNotes();
+}
+
+/// What the engine has to say about the scene: at first about its tolerance, later about timed inputs that it refuses.
+void Node::tellNotes()
+{
+  const std::vector<std::string>& notes = world_.notes();
+  for (std::size_t i = std::min(notes_told_, notes.size()); i < notes.size(); ++i)
+    ROS_WARN_STREAM(parameters_.scene << ": " << notes[i]);
+  notes_told_ = notes.size();
 }
 
 void Node::run()
@@ -129,6 +137,7 @@ void Node::advance(std::int64_t target, std::int64_t deadline)
     if (!isSettled())
       return;
     logSceneInputs();
+    tellNotes();
     if (schedule_.isDue(now_ns_))
       publishState();
     if (steadyNow() >= deadline)

@@ -47,6 +47,7 @@ private:
   void setPaused(bool paused);
   void publishState();
   void publishDue();
+  void tellNotes();
 
   // node_commands.cpp: topics and services
   void subscribe();
@@ -78,6 +79,7 @@ private:
   double lost_ = 0.0;        ///< s that simulated time has fallen behind for good
   std::int64_t state_ns_ = 0, state_sent_ = 0, overlay_sent_ = 0;
   bool overlay_changed_ = true;
+  std::size_t notes_told_ = 0;
   std::vector<Pending> pending_;
 
   std::vector<ros::Subscriber> subscribers_;

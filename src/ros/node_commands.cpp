@@ -106,8 +106,9 @@ bool Node::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& res
   if (now_ns_ > state_ns_)
     publishState();
   const int count = world_.bodyCount();
-  response.message = apply(ResetCommand());
-  response.success = response.message.empty();
+  const std::string reason = apply(ResetCommand());
+  response.success = reason.empty();
+  response.message = response.success ? "reset at " + std::to_string(world_.now().seconds()) + " s" : reason;
   publishers_.forgetImpulses();
   if (world_.bodyCount() != count)
     publishers_.publishShapes();

@@ -8,9 +8,8 @@
 
 namespace
 {
-std::unique_ptr<block_world::Node> makeNode()
+std::unique_ptr<block_world::Node> makeNode(const ros::NodeHandle& handle)
 {
-  const ros::NodeHandle handle("~");
   const block_world::Parameters parameters = block_world::readParameters(handle);
   for (const std::string& name : block_world::unknownParameters(handle))
     ROS_WARN_STREAM("unknown parameter " << name << ": not used");
@@ -21,10 +20,12 @@ std::unique_ptr<block_world::Node> makeNode()
 int main(int argc, char** argv)
 {
   ros::init(argc, argv, "block_world");
+  // Outlives the try: with the last handle gone, ROS would be shut down and its log closed.
+  const ros::NodeHandle handle("~");
   std::unique_ptr<block_world::Node> node;
   try
   {
-    node = makeNode();
+    node = makeNode(handle);
   }
   catch (const std::runtime_error& error)
   {
