@@ -114,14 +114,10 @@ double World::Engine::damperLoss(const Body& first, const Vec2& first_point, con
     const Series rx = derivative(dx, kOrder), ry = derivative(dy, kOrder);
     return damping * (integrateProduct(rx, rx, kOrder - 1, kOrder - 1, span) + integrateProduct(ry, ry, kOrder - 1, kOrder - 1, span));
   }
-  Series length{};
-  for (int k = 0; k <= kOrder; ++k)
-  {
-    double square = cauchy(dx, dx, k) + cauchy(dy, dy, k);
-    for (int j = 1; j < k; ++j)
-      square -= length[j] * length[k - j];
-    length[k] = k == 0 ? std::sqrt(square) : square / (2.0 * length[0]);
-  }
+  Series length{}, ux{}, uy{};
+  const bool coincident = endsMeet(dx[0], dy[0], std::abs(first.arc.x[0]) + std::abs(first.arc.y[0]) + rest_length);
+  for (int k = 0; k <= (coincident ? kOrder - 1 : kOrder); ++k)
+    lengthSeries(dx, dy, k, coincident, length, ux, uy);
   const Series rate = derivative(length, kOrder);
   return damping * integrateProduct(rate, rate, kOrder - 1, kOrder - 1, span);
 }

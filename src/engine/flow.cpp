@@ -25,6 +25,39 @@ constexpr double kForceTruncation = 1e-13;
 constexpr double kLongest = 1048576.0;
 }  // namespace
 
+bool endsMeet(double dx, double dy, double size)
+{
+  return std::hypot(dx, dy) <= kCancelled * size;
+}
+
+void lengthSeries(const Series& dx, const Series& dy, int order, bool coincident, Series& length, Series& ux, Series& uy)
+{
+  const int shift = coincident ? 1 : 0;
+  const auto at = [shift](const Series& series, int n) { return series[n + shift]; };
+  double square = 0.0;
+  for (int j = 0; j <= order; ++j)
+    square += at(dx, j) * at(dx, order - j) + at(dy, j) * at(dy, order - j);
+  if (coincident)
+    length[0] = 0.0;
+  if (order == 0)
+    length[shift] = std::sqrt(square);
+  else
+  {
+    for (int j = 1; j < order; ++j)
+      square -= at(length, j) * at(length, order - j);
+    length[order + shift] = length[shift] > 0.0 ? square / (2.0 * length[shift]) : 0.0;
+  }
+  double x = at(dx, order), y = at(dy, order);
+  for (int j = 1; j <= order; ++j)
+  {
+    x -= at(length, j) * ux[order - j];
+    y -= at(length, j) * uy[order - j];
+  }
+  // Ends that meet without moving apart have no direction, and pull nowhere.
+  ux[order] = length[shift] > 0.0 ? x / length[shift] : 0.0;
+  uy[order] = length[shift] > 0.0 ? y / length[shift] : 0.0;
+}
+
 void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
                  const std::vector<Member>& members, std::vector<Rest>& rests)
 {
@@ -177,27 +210,10 @@ void Flow::springForce(LinkWork& link, int n)
     v.fy[n] = -link.stiffness * v.dy[n] - link.damping * (n + 1) * v.dy[n + 1];
     return;
   }
-  // L^2 = d.d and u L = d, order by order.
-  for (int k = n == 0 ? 0 : n + 1; k <= n + 1; ++k)
-  {
-    double square = cauchy(v.dx, v.dx, k) + cauchy(v.dy, v.dy, k);
-    if (k == 0)
-      v.length[0] = std::sqrt(square);
-    else
-    {
-      for (int j = 1; j < k; ++j)
-        square -= v.length[j] * v.length[k - j];
-      v.length[k] = square / (2.0 * v.length[0]);
-    }
-    double ux = v.dx[k], uy = v.dy[k];
-    for (int j = 1; j <= k; ++j)
-    {
-      ux -= v.length[j] * v.ux[k - j];
-      uy -= v.length[j] * v.uy[k - j];
-    }
-    v.ux[k] = ux / v.length[0];
-    v.uy[k] = uy / v.length[0];
-  }
+  if (n == 0)
+    v.coincident = endsMeet(v.dx[0], v.dy[0], std::abs(body_[link.first]->arc.x[0]) + std::abs(body_[link.first]->arc.y[0]) + link.rest_length);
+  for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
+    lengthSeries(v.dx, v.dy, v.coincident ? k - 1 : k, v.coincident, v.length, v.ux, v.uy);
   double fx = 0.0, fy = 0.0;
   for (int j = 0; j <= n; ++j)
   {
@@ -454,6 +470,17 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
       if (work_[i].trigonometric && arc.angle[1] != 0.0)
         horizon = std::min(horizon, 1.0 / std::abs(arc.angle[1]));
     }
+  }
+  // A spring whose ends meet turns its direction there: a new arc.
+  for (const LinkWork& link : links_)
+  {
+    if (link.rest_length == 0.0)
+      continue;
+    Series length = link.series.length;
+    if (link.series.coincident)
+      std::rotate(length.begin(), length.begin() + 1, length.end());
+    if (length[0] > 0.0)
+      horizon = std::min(horizon, firstBelow(length, degree - 2, horizon, 0.0));
   }
   for (std::size_t i = 0; i < work_.size(); ++i)
   {

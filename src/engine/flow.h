@@ -23,8 +23,16 @@ struct SpringSeries
   Series from_x{}, from_y{}, to_x{}, to_y{};  ///< arms R p of the two ends
   Series dx{}, dy{};                          ///< from the second end to the first
   Series length{}, ux{}, uy{};                ///< of a spring with a rest length
+  bool coincident = false;                    ///< its ends meet at the start
   Series fx{}, fy{};                          ///< force on the first end
 };
+
+/// Length and direction of the vector (dx, dy) up to an order, from length^2 = d.d and direction x length = d; values of lower orders are there
+/// already. Where the ends meet at the start the length is s |e| with e = d / s, so that the order above is needed of d.
+void lengthSeries(const Series& dx, const Series& dy, int order, bool coincident, Series& length, Series& ux, Series& uy);
+
+/// Whether the ends meet: their distance is the rounding of their places.
+bool endsMeet(double dx, double dy, double size);
 
 /// Expands the motion of an island, bodies that move as one, into arcs: Taylor series by recurrences, with resting contact enforced on the
 /// position at every order (structural analysis of DAEs, Nedialkov & Pryce; no index reduction, hence no drift). One Cholesky factor of

@@ -210,6 +210,22 @@ TEST(CheckerFaults, NormalOfTheWrongSign)
               { "contact.normal", "contact.sign" }, { "impact.approach", "impact.impulse" });
 }
 
+TEST(CheckerFaults, ImpactThatPulls)
+{
+  expectFault(spoil(flatDrop(0.5), [](checker::Run& run) { impactOf(run).impulse *= -1.0; }),
+              { "contact.sign", "replay.linear_momentum", "replay.angular_momentum" },
+              { "replay.position", "energy.impact_loss" });
+}
+
+TEST(CheckerFaults, PullBeyondWhatACaptureStandsFor)
+{
+  const Case item = flatDrop(0.5);
+  const double first = item.events.front().time, capture = item.rest_from;
+  expectFault(spoil(pullAndPush(item, first, 1e-3), nothing), { "contact.sign" }, {});
+  // 1 kg and sqrt(8 x 1e-6 m x 2 x 9.8 m/s^2) = 0.0125 m/s
+  expectFault(spoil(pullAndPush(item, capture, 0.013), nothing), { "contact.sign" }, {});
+}
+
 TEST(CheckerFaults, NormalTiltedAndTooLong)
 {
   expectFault(spoil(cornerOnWall(0.5), [](checker::Run& run) { impactOf(run).normal *= 1.0 + 1e-9; }),

@@ -48,6 +48,12 @@ TEST(Checker, PassesABounceTooLowToTellFromRest)
   expectPass(slowHit(0.005), { "impact.restitution" });
 }
 
+TEST(Checker, PassesASmallPullWhereABounceIsCaptured)
+{
+  const Case item = flatDrop(0.5);
+  expectPass(pullAndPush(item, item.rest_from, 0.012), { "contact.sign", "replay.linear_momentum" });
+}
+
 TEST(Checker, PassesDampedFlight)
 {
   expectPass(dampedFlight(), { "flight.position", "energy.damping_loss", "momentum.linear" });

@@ -84,6 +84,22 @@ inline Case flatDrop(double e, double capture = 0.05)
   return item;
 }
 
+/// The same run with an impulse and its opposite added at one of its events.
+inline Case pullAndPush(Case item, double time, double impulse)
+{
+  size_t i = 0;
+  while (item.events[i].time < time)
+    ++i;
+  ContactRow extra = item.events[i];
+  extra.kind = Kind::Impact;
+  for (const double sign : { -1.0, 1.0 })
+  {
+    extra.impulse = sign * impulse;
+    item.events.insert(item.events.begin() + i, extra);
+  }
+  return item;
+}
+
 /// A tilted square flies into the long side of a heavier block, off both centres, without gravity. `factor` spoils the
 /// elasticity.
 inline Case offCentreHit(double e, double factor = 1.0)

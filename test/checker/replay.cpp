@@ -16,7 +16,8 @@ Replay::Checks::Checks(Report& report)
                                                   "limit"))
   , angular(report.check("replay.angular_momentum", "I domega is the sum of their moments (9, 10), in units of its "
                                                     "limit"))
-  , sign(report.check("contact.sign", "no contact pulls: impulse or force below zero"))
+  , sign(report.check("contact.sign", "no contact pulls beyond what a capture stands for: force or impulse below "
+                                       "zero"))
   , unit(report.check("contact.unit_normal", "length of the normal less 1"))
   , normal(report.check("contact.normal", "the normal points from b to a and parts them, m"))
   , point(report.check("contact.point", "distance of the contact point from the farther boundary, m"))
@@ -153,10 +154,13 @@ void Replay::holdForces(size_t sample)
   std::fill(leaning_.begin(), leaning_.end(), 0.0);
   std::fill(resting_.begin(), resting_.end(), 0);
   std::iota(island_parent_.begin(), island_parent_.end(), 0);
+  rest_pairs_.clear();
   const size_t first = sample == 0 ? 0 : rows_end_[sample - 1];
   for (size_t i = first; i < rows_end_[sample + 1]; ++i)
   {
     const ContactRow& row = run_.contacts[i];
+    if (row.kind != Kind::Impact)
+      rest_pairs_.push_back(std::minmax(row.a, row.b));
     if (row.kind != Kind::Rest)
       continue;
     for (const int body : { row.a, row.b })
@@ -174,6 +178,7 @@ void Replay::holdForces(size_t sample)
     if (scene_.movable(row.a) && scene_.movable(row.b))
       island_parent_[islandOf(motion_.clusterOf(row.a))] = islandOf(motion_.clusterOf(row.b));
   }
+  std::sort(rest_pairs_.begin(), rest_pairs_.end());
 }
 
 // Which islands have an event inside the interval; a contact that begins and ends inside it makes its bodies rest, too.

@@ -79,6 +79,7 @@ private:
 
   // impacts.cpp: what happens at one time
   void strike(RowRange rows);
+  void checkSigns(const std::vector<const ContactRow*>& events);
   void strikeGroup(const std::vector<const ContactRow*>& group);
   void push(const ContactRow& row);
   void loseIsland(int body);
@@ -89,6 +90,8 @@ private:
   double normalVelocity(const ContactRow& row, const std::vector<State>& states) const;
   double overlap(int a, int b, const std::vector<State>& states) const;
   double captureSpeed(const ContactRow& row, const std::vector<State>& states) const;
+  double captureImpulse() const;
+  double appliedAcceleration(int body, const std::vector<State>& states) const;
   double slack(const ContactRow& row, double since);
 
   const Scene& scene_;
@@ -107,6 +110,7 @@ private:
   double begin_ = 0.0, end_ = 0.0;
   std::vector<State> states_;
   std::vector<Load> held_;            ///< contact forces at the interval's first sample
+  std::vector<std::pair<int, int>> rest_pairs_;  ///< that rest at either sample or begin to in between; sorted
   std::vector<int> island_parent_;    ///< clusters joined by resting contacts
   std::vector<char> resting_, lost_;  ///< per cluster; lost: its state is unknown after an event
   std::vector<char> eventful_;        ///< per island root
