@@ -95,7 +95,7 @@ public:
   Time now() const;
 
   /// Advances to target (not before now()), or until max_events promises have been kept (negative: no limit).
-  /// Returns now(), which is earlier than target only where the limit was reached.
+  /// Returns now(), which is earlier than target only where the limit was reached, or where statistics().mode says that the world stalled.
   Time advance(Time target, std::int64_t max_events = -1);
 
   /// Applies a command at now(). A refused command changes nothing.

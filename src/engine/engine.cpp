@@ -120,6 +120,8 @@ void World::Engine::buildPairs()
 /// Sets the scene's states in motion at now, and begins a new account there.
 void World::Engine::start()
 {
+  crowd_ = 0;
+  statistics.mode = "exact";
   for (int i = 0; i < block_count; ++i)
   {
     Body& body = bodies[i];
@@ -169,6 +171,8 @@ Time World::Engine::advance(Time target, std::int64_t max_events)
       return now;
     const int slot = promises_.first();
     const Time time = promises_.firstTime();
+    if (stalls(time, slot))
+      return now;
     if (time > now)
       now = time;
     ++statistics.events;
@@ -176,6 +180,24 @@ Time World::Engine::advance(Time target, std::int64_t max_events)
   }
   now = target;
   return now;
+}
+
+/// Whether events pile up without time going on: more than can be the true course of a scene. Says so in the mode; time then stands still.
+bool World::Engine::stalls(const Time& time, int slot)
+{
+  constexpr std::int64_t kMost = 100000;
+  constexpr double kSpan = 1e-12;  // s
+  if (time - crowd_start_ > kSpan)
+  {
+    crowd_start_ = time;
+    crowd_ = 0;
+  }
+  if (++crowd_ < kMost)
+    return false;
+  const int count = static_cast<int>(bodies.size());
+  const int body = slot == 0 ? 0 : slot < 1 + 2 * count ? (slot - 1) % count : pairs_[slot - 1 - 2 * count].a;
+  statistics.mode = "stalled at '" + bodies[body].name + "', more than 100000 events within 1e-12 s";
+  return true;
 }
 
 /// A promise came due.

@@ -56,6 +56,7 @@ private:
   void buildPairs();
   void start();
   void resolveAll(const Time& time);
+  bool stalls(const Time& time, int slot);
   void keep(int slot, const Time& time);
   int expirySlot(int body) const
   {
@@ -120,6 +121,10 @@ private:
   bool overlaps(int body, const Frame& frame, const Time& time, std::string& with) const;
   void dissolve(int body, const Time& time);
   void rebuild(const Time& time);
+
+  /// Events since crowd_start_, to notice time standing still.
+  Time crowd_start_;
+  std::int64_t crowd_ = 0;
 
   Scene loaded_;
   Field field_;

@@ -8,7 +8,7 @@ namespace block_world
 {
 namespace
 {
-constexpr std::int64_t MS = 1000000;           // ns
+constexpr std::int64_t MS = 1000000;            // ns
 constexpr std::int64_t FOLLOWER_WAIT = 2 * MS;  // nothing wakes us when the followed clock ticks
 constexpr std::int64_t WORK_SLICE = 10 * MS;    // the engine's time between two looks at the callbacks
 constexpr std::int64_t LONGEST_SLICE = 100 * MS;
@@ -145,8 +145,8 @@ void Node::advance(std::int64_t target, std::int64_t deadline)
   }
 }
 
-/// Commands act at whole ns, so the deadline moves the goal to the next of these. Events that crowd within one ns must not
-/// keep services from answering either: then the world is left between two of them and goes on the next time.
+/// Commands act at whole ns, so the deadline moves the goal to the next of these. Events that crowd within one ns must
+/// not keep services from answering either: then the world is left between two of them and goes on the next time.
 void Node::advanceWorld(std::int64_t goal, std::int64_t deadline)
 {
   while (world_.advance(Time::fromNanoseconds(goal), EVENTS_AT_ONCE) < Time::fromNanoseconds(goal))

@@ -76,7 +76,7 @@ private:
 
   std::int64_t now_ns_ = 0;  ///< the world's time; behind it only while the engine is between two whole ns
   bool paused_;
-  double lost_ = 0.0;        ///< s that simulated time has fallen behind for good
+  double lost_ = 0.0;  ///< s that simulated time has fallen behind for good
   std::int64_t state_ns_ = 0, state_sent_ = 0, overlay_sent_ = 0;
   bool overlay_changed_ = true;
   std::size_t notes_told_ = 0;

@@ -39,8 +39,7 @@ void Node::onThrust(const msg::Thrust::ConstPtr& message)
 
 void Node::onSpring(const msg::SpringForce::ConstPtr& message)
 {
-  pending_.push_back(
-      { topics::SPRING, toCommand(*message, parameters_.mouse_stiffness, parameters_.mouse_damping) });
+  pending_.push_back({ topics::SPRING, toCommand(*message, parameters_.mouse_stiffness, parameters_.mouse_damping) });
 }
 
 void Node::onWrench(const geometry_msgs::WrenchStamped::ConstPtr& message)
@@ -122,16 +121,15 @@ std::vector<Node::Pending> Node::commandsOf(const msg::Step::Request& request) c
   for (const msg::Thrust& thrust : request.thrust)
     commands.push_back({ topics::THRUST, toCommand(thrust) });
   for (const msg::SpringForce& spring : request.spring)
-    commands.push_back(
-        { topics::SPRING, toCommand(spring, parameters_.mouse_stiffness, parameters_.mouse_damping) });
+    commands.push_back({ topics::SPRING, toCommand(spring, parameters_.mouse_stiffness, parameters_.mouse_damping) });
   for (const geometry_msgs::WrenchStamped& wrench : request.wrench)
     commands.push_back({ topics::WRENCH, toCommand(wrench.wrench, bodyOfFrame(world_, wrench.header.frame_id,
                                                                               parameters_.tf_prefix)) });
   return commands;
 }
 
-/// Applies all of them or, where one is bad, none, and says why. Whether a command is good depends on the blocks alone, not on
-/// where they are, so a second world that stands still can be asked first.
+/// Applies all of them or, where one is bad, none, and says why. Whether a command is good depends on the blocks alone,
+/// not on where they are, so a second world that stands still can be asked first.
 std::string Node::applyAll(const std::vector<Pending>& commands)
 {
   if (!commands.empty() && !trial_)

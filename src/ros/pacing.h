@@ -20,8 +20,8 @@ public:
   /// The clock's reading at which a simulated time is due.
   std::int64_t clockAt(std::int64_t simulated) const;
 
-  /// Lets simulated time fall behind for good where it is more than limit of the clock's ns late; returns by how much of
-  /// the clock's time it was late then, else 0.
+  /// Lets simulated time fall behind for good where it is more than limit of the clock's ns late; returns by how much
+  /// of the clock's time it was late then, else 0.
   std::int64_t forgive(std::int64_t simulated, std::int64_t clock, std::int64_t limit);
 
 private:

@@ -163,10 +163,10 @@ Parameters readParameters(const ros::NodeHandle& handle)
 
 std::vector<std::string> unknownParameters(const ros::NodeHandle& handle)
 {
-  static const std::set<std::string> KNOWN = {
-    "scene", "gravity", "elasticity", "damping", "thrust", "mass", "tolerance", "count", "mouse_stiffness",
-    "mouse_damping", "real_time_factor", "publish_rate", "paused", "publish_clock", "frame_id", "tf_prefix"
-  };
+  static const std::set<std::string> KNOWN = { "scene",           "gravity",       "elasticity",       "damping",
+                                               "thrust",          "mass",          "tolerance",        "count",
+                                               "mouse_stiffness", "mouse_damping", "real_time_factor", "publish_rate",
+                                               "paused",          "publish_clock", "frame_id",         "tf_prefix" };
   std::vector<std::string> names, unknown;
   handle.getParamNames(names);
   const std::string own = handle.getNamespace() + "/";

@@ -139,8 +139,8 @@ tf2_msgs::TFMessage Publishers::transforms() const
 
 void Publishers::publishTransforms(std::int64_t now_ns)
 {
-  // tf2 ignores a second transform with the same stamp, so a state that has changed while time stands still (a reset in a
-  // paused world) is stamped a nanosecond later.
+  // tf2 ignores a second transform with the same stamp, so a state that has changed while time stands still (a reset in
+  // a paused world) is stamped a nanosecond later.
   transform_stamp_ = std::max(stamp(origin_ns_, now_ns), transform_stamp_ + ros::Duration(0, 1));
   if (transforms_.getNumSubscribers() > 0)
     transforms_.publish(transforms());

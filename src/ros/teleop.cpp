@@ -15,9 +15,9 @@ namespace block_world
 {
 namespace
 {
-constexpr std::int64_t MS = 1000000;              // ns
-constexpr std::int64_t REFRESH = 100 * MS;        // of a thrust that is held
-constexpr std::int64_t MOVING_FOR = 300 * MS;     // after the last state with a later time the world counts as running
+constexpr std::int64_t MS = 1000000;           // ns
+constexpr std::int64_t REFRESH = 100 * MS;     // of a thrust that is held
+constexpr std::int64_t MOVING_FOR = 300 * MS;  // after the last state with a later time the world counts as running
 constexpr int REDRAW_MS = 50;
 // s of simulated time: what is left of a thrust when the teleop dies.
 constexpr double THRUST_DURATION = 0.5;
@@ -152,7 +152,8 @@ void Teleop::step()
 std::string Teleop::status(std::int64_t now) const
 {
   if (!energy_)
-    return thrust_.getNumSubscribers() > 0 ? "connected, no state yet" : "waiting for the node " + std::string(topics::NODE);
+    return thrust_.getNumSubscribers() > 0 ? "connected, no state yet" :
+                                             "waiting for the node " + std::string(topics::NODE);
   char text[80];
   std::snprintf(text, sizeof(text), "%s at %.3f s", isRunning(now) ? "running" : "standing still", energy_->time);
   return text;

@@ -132,7 +132,7 @@ double advance(World& world, const SimulateOptions& options, CpuClock& cpu, Outp
     cpu.stop();
     output.write(world, sample);
     worst_overlap = std::max(worst_overlap, world.overlap());
-    if (sample.time >= end)
+    if (sample.time >= end || world.now() < sampleTime(number, options))
       return worst_overlap;
     progress.show(world);
   }
@@ -149,6 +149,8 @@ void run(Scene scene, const SimulateOptions& options, Output& output)
   const double worst_overlap = advance(world, options, cpu, output);
   output.close();
   printSummary(world, cpu, worst_overlap);
+  if (world.now() < Time::fromNanoseconds(options.duration))
+    throw std::runtime_error(world.statistics().mode);
 }
 
 /// The files that a run will write. A file that cannot be opened is the caller's mistake.

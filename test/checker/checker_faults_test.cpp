@@ -213,7 +213,7 @@ TEST(CheckerFaults, NormalOfTheWrongSign)
 TEST(CheckerFaults, ImpactThatPulls)
 {
   expectFault(spoil(flatDrop(0.5), [](checker::Run& run) { impactOf(run).impulse *= -1.0; }),
-              { "contact.sign", "replay.linear_momentum", "replay.angular_momentum" },
+              { "contact.sign", "replay.linear_momentum", "replay.angular_momentum", "impact.energy" },
               { "replay.position", "energy.impact_loss" });
 }
 

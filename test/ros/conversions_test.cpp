@@ -12,7 +12,8 @@ namespace
 {
 World twoBlocks()
 {
-  return World(loadSceneText("blocks: [{name: a, pose: [0, 0, 0]}, {name: p_a, pose: [5, 0, 0]}, {name: b, pose: [9, 0, 0]}]"));
+  return World(loadSceneText("blocks: [{name: a, pose: [0, 0, 0]}, {name: p_a, pose: [5, 0, 0]}, {name: b, pose: [9, "
+                             "0, 0]}]"));
 }
 }  // namespace
 

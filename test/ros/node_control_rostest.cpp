@@ -60,7 +60,8 @@ const visualization_msgs::Marker* findMarker(const visualization_msgs::MarkerArr
 /// Exit status of a node of its own that is given bad parameters.
 int exitStatus(const std::string& arguments)
 {
-  const int status = std::system(("timeout 20 " BLOCK_WORLD_NODE " __name:=refused " + arguments + " 2>/dev/null").c_str());
+  const int status =
+      std::system(("timeout 20 " BLOCK_WORLD_NODE " __name:=refused " + arguments + " 2>/dev/null").c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
@@ -304,9 +305,9 @@ TEST_F(NodeControl, badParametersAndScenesEndWithStatusTwo)
   EXPECT_EQ(exitStatus("_scene:=/nowhere.yaml"), 2);
   ros::NodeHandle refused("/refused");
   refused.deleteParam("scene");
-  for (const char* bad : { "gravity:=-1", "gravity:=down", "elasticity:=1.5", "count:=0", "count:=2.5", "paused:=2",
-                           "publish_rate:=0", "real_time_factor:=-1", "tf_prefix:=/a", "mass:=0", "tolerance:=1.0",
-                           "count:=7", "mouse_stiffness:=-3" })
+  for (const char* bad :
+       { "gravity:=-1", "gravity:=down", "elasticity:=1.5", "count:=0", "count:=2.5", "paused:=2", "publish_rate:=0",
+         "real_time_factor:=-1", "tf_prefix:=/a", "mass:=0", "tolerance:=1.0", "count:=7", "mouse_stiffness:=-3" })
   {
     EXPECT_EQ(exitStatus(good + "_" + bad), 2) << bad;
     refused.deleteParam(std::string(bad).substr(0, std::string(bad).find(':')));

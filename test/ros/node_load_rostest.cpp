@@ -1,5 +1,5 @@
-// Thrust and spring commands at 1 kHz, a tenth of them malformed: the node keeps real time, loses no valid one and warns
-// no more than once per kind and second.
+// Thrust and spring commands at 1 kHz, a tenth of them malformed: the node keeps real time, loses no valid one and
+// warns no more than once per kind and second.
 
 #include <rosgraph_msgs/Log.h>
 

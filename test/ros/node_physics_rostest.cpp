@@ -157,7 +157,8 @@ TEST(NodePhysics, comesToRest)
     for (const msg::Contact& contact : message.contacts)
       if (contact.kind == msg::Contact::REST_BEGIN)
         rest_begin = contact.time;
-  // The engine takes the last bounces together, those no higher than a few tolerances: sqrt(8 h / g) each, some ms in all.
+  // The engine takes the last bounces together, those no higher than a few tolerances: sqrt(8 h / g) each, some ms in
+  // all.
   EXPECT_NEAR(rest_begin, end, 5e-3);
 }
 

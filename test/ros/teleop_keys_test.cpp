@@ -29,8 +29,7 @@ const std::vector<double> NONE = { 0, 0, 0, 0, 0, 0 };
 TEST(KeyReader, readsLettersAndArrows)
 {
   EXPECT_EQ(read("eS "), (std::vector<int>{ 'e', 'S', ' ' }));
-  EXPECT_EQ(read("\033[A\033[B\033[C\033[D"),
-            (std::vector<int>{ keys::UP, keys::DOWN, keys::RIGHT, keys::LEFT }));
+  EXPECT_EQ(read("\033[A\033[B\033[C\033[D"), (std::vector<int>{ keys::UP, keys::DOWN, keys::RIGHT, keys::LEFT }));
   EXPECT_EQ(read("\033OAe"), (std::vector<int>{ keys::UP, 'e' }));
   EXPECT_EQ(read("\033[1;2De"), (std::vector<int>{ keys::LEFT, 'e' }));
   EXPECT_EQ(read("\033[3~e"), (std::vector<int>{ 'e' })) << "other function keys are passed over";
