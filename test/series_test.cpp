@@ -139,10 +139,17 @@ TEST(FirstZero, KnownRoots)
     { 1.0, -1.0, 0.51, never },                            // turns back just above zero
   };
   for (const auto& c : cases)
+  {
+    SCOPED_TRACE(testing::Message() << c.g << " " << c.v << " " << c.a);
     if (c.root == never)
-      EXPECT_EQ(firstZero(c.g, c.v, c.a), never) << c.g << " " << c.v << " " << c.a;
+    {
+      EXPECT_EQ(firstZero(c.g, c.v, c.a), never);
+    }
     else
-      EXPECT_NEAR(firstZero(c.g, c.v, c.a), c.root, 4 * eps) << c.g << " " << c.v << " " << c.a;
+    {
+      EXPECT_NEAR(firstZero(c.g, c.v, c.a), c.root, 4 * eps);
+    }
+  }
 }
 
 TEST(FirstZero, NoCancellationAtAnyScale)
@@ -185,11 +192,17 @@ TEST(FirstBelow, Openings)
   {
     const auto& c = cases[i];
     for (const int degree : { 3, kOrder })
+    {
+      const double found = firstBelow(c.c, degree, c.horizon, c.floor);
       if (c.expected == never)
-        EXPECT_EQ(firstBelow(c.c, degree, c.horizon, c.floor), never) << i;
+      {
+        EXPECT_EQ(found, never) << i;
+      }
       else
-        // Bernstein coefficients round by eps of the largest, which moves a start that is zero by as much.
-        EXPECT_NEAR(firstBelow(c.c, degree, c.horizon, c.floor), c.expected, 8 * eps) << i;
+      {
+        EXPECT_NEAR(found, c.expected, 8 * eps) << i;  // simple roots, whose values round by a few eps
+      }
+    }
   }
 }
 
@@ -268,7 +281,9 @@ TEST(FirstBelow, NeverPassesASampleBelow)
     const double horizon = 2.5, rounding = 64 * eps * magnitude(c, horizon);
     const double s = firstBelow(c, degree, horizon, 0.0);
     if (s < never)
+    {
       EXPECT_NEAR(evaluate(c, degree, s), 0.0, rounding) << i;  // no false alarm either
+    }
     for (int k = 0; k <= 500 && k / 200.0 < s; ++k)
       EXPECT_GT(evaluate(c, degree, k / 200.0), -rounding) << i << " at " << k / 200.0;
   }

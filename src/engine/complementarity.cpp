@@ -6,7 +6,7 @@
 
 namespace block_world
 {
-bool Cholesky::append(const double* row)
+bool Cholesky::append(const double* row, double share)
 {
   const int n = size_;
   if (lower_.size() < static_cast<std::size_t>((n + 1) * (n + 2) / 2))
@@ -20,7 +20,7 @@ bool Cholesky::append(const double* row)
     at(n, j) = sum / at(j, j);
     pivot -= at(n, j) * at(n, j);
   }
-  if (!(pivot > 1e-11 * row[n]))
+  if (!(pivot > share * row[n]))
     return false;
   at(n, n) = std::sqrt(pivot);
   ++size_;

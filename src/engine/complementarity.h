@@ -17,8 +17,8 @@ public:
     return size_;
   }
   /// Appends row[0..size()] (the last is the diagonal). Refuses, returning false, a row that depends on the former ones:
-  /// one whose pivot falls below 1e-11 of its diagonal.
-  bool append(const double* row);
+  /// one whose pivot falls below that share of its diagonal.
+  bool append(const double* row, double share = 1e-11);
   /// Keeps the first rows only.
   void truncate(int size)
   {

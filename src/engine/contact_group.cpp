@@ -264,8 +264,9 @@ double ContactGroup::collide(const ContactScales& scales)
   double loss = 0.0;
   bool locked = false;
   pulling_ = true;
+  bool quiet = false;
   const int cap = 100 * (n + 10);
-  for (int stage = 0; stage < cap; ++stage)
+  for (int stage = 0; stage < cap && !quiet; ++stage)
   {
     fast_.clear();
     for (int i = 0; i < n; ++i)
@@ -289,22 +290,27 @@ double ContactGroup::collide(const ContactScales& scales)
         loss += stop(pressed_, true);
         former_ = pressed_;
         solveRest();
-        bool quiet = pressed_ == former_;
+        quiet = pressed_ == former_;
         for (int i = 0; i < n && quiet; ++i)
           quiet = velocityOf(i) >= (touches[i].gap > closed_ ? -rest_speed_[i] : -noise_);
-        if (quiet || stage > cap / 2)
-          break;
-        // The capture made another one approach: from here on what is slow only stops, and nothing is held back.
+        // If the capture made another one approach: from here on what is slow only stops, and nothing is held back.
         pulling_ = false;
         continue;
       }
     }
     if (stage == 50)
       locked = isLocked(all_);
-    if (locked || !anyElastic(fast_) || stage == cap - 1)
+    if (locked || !anyElastic(fast_))
       loss += stop(all_, false);
     else
       loss += reflect(fast_);
+  }
+  if (!quiet)
+  {
+    // More stages than any free cone is known to need: what is left ends inelastically.
+    pulling_ = false;
+    loss += stop(all_, false);
+    solveRest();
   }
   for (int i : pressed_)
     touches[i].active = true;
