@@ -84,6 +84,17 @@ void ContactGroup::scale(const ContactScales& scales)
   }
 }
 
+/// Vertices of one pair that land within the tolerance land together (flat on flat); those of other pairs only where their gaps are closed too,
+/// else the order of their hits in time is kept.
+void ContactGroup::findSimultaneous()
+{
+  const int n = static_cast<int>(touches.size());
+  meets_.assign(n, 0);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n && !meets_[i]; ++j)
+      meets_[i] = touches[j].gap <= closed_ && touches[j].pair == touches[i].pair;
+}
+
 bool ContactGroup::anyElastic(const std::vector<int>& rows) const
 {
   return std::any_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity > 0.0; });
@@ -257,9 +268,11 @@ double ContactGroup::collide(const ContactScales& scales)
   }
   closed_ = scales.closed;
   scale(scales);
+  findSimultaneous();
   all_.clear();
   for (int i = 0; i < n; ++i)
-    all_.push_back(i);
+    if (meets_[i])
+      all_.push_back(i);
 
   double loss = 0.0;
   bool locked = false;
@@ -270,7 +283,7 @@ double ContactGroup::collide(const ContactScales& scales)
   {
     fast_.clear();
     for (int i = 0; i < n; ++i)
-      if (velocityOf(i) < -rest_speed_[i])
+      if (meets_[i] && velocityOf(i) < -rest_speed_[i])
         fast_.push_back(i);
     if (fast_.empty())
     {
@@ -292,7 +305,7 @@ double ContactGroup::collide(const ContactScales& scales)
         solveRest();
         quiet = pressed_ == former_;
         for (int i = 0; i < n && quiet; ++i)
-          quiet = velocityOf(i) >= (touches[i].gap > closed_ ? -rest_speed_[i] : -noise_);
+          quiet = !meets_[i] || velocityOf(i) >= (touches[i].gap > closed_ ? -rest_speed_[i] : -noise_);
         // If the capture made another one approach: from here on what is slow only stops, and nothing is held back.
         pulling_ = false;
         continue;

@@ -63,6 +63,7 @@ private:
   double velocityOf(int i) const;
   void push(int i, double impulse);
   void scale(const ContactScales& scales);
+  void findSimultaneous();
   double reflect(const std::vector<int>& rows);
   double stop(const std::vector<int>& rows, bool pulling);
   void clean();
@@ -77,6 +78,7 @@ private:
   Cholesky factor_;
   std::vector<int> fast_, slow_, pressed_, all_, former_;
   std::vector<double> rest_speed_, b_, before_, row_, solution_;
+  std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
   struct Size
   {

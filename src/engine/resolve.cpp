@@ -169,7 +169,7 @@ void World::Engine::findTouches(const Time& time)
         if (member_of_[view->body] < 0)
           view->frame = frame(view->body, time);
       const std::size_t before = group_.touches.size();
-      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches);
+      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches, 2.0 * detector_.guard());
       if (group_.touches.size() == before)
         continue;
       velocity_decided_ = velocity_decided_ || finder_.velocityDecided();

@@ -89,7 +89,7 @@ void TouchFinder::gather(const Candidate& candidate, const Body& face_body, cons
 }
 
 void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,
-                       std::vector<Touch>& touches)
+                       std::vector<Touch>& touches, double closed)
 {
   velocity_decided_ = false;
   tolerance_ = tolerance;
@@ -132,6 +132,12 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
   {
     found_.clear();
     Vec2 normal_sum = Vec2::Zero();
+    // Candidates come with the largest gap in front, and so do the clusters.
+    bool ties = false;
+    for (const Candidate& c : candidates_)
+      ties = ties || (c.cluster == cluster && c.gap >= best - closed);
+    if (any && !ties)
+      continue;
     for (const Candidate& c : candidates_)
     {
       if (c.cluster != cluster)

@@ -54,14 +54,15 @@ double contactGram(const Touch& p, const Touch& q, const std::vector<Member>& me
 
 /// Finds the touches of a pair: vertices within `reach` of a face that separates the bodies best, seen from both bodies.
 ///
-/// Faces tie within the tolerance where flat meets flat (parallel: all their touches count, coinciding ones once) and where corner meets
-/// corner. There the feasible motions are the union of the half-spaces of the tied faces, so the bodies are in each other's way only if
+/// Where flat meets flat, parallel within the tolerance, the touches of both faces count, coinciding ones once. Where corner meets corner
+/// several faces may separate the bodies equally well. There the feasible motions are the union of the half-spaces of the tied faces, so the bodies are in each other's way only if
 /// they approach on every one: then one touch along the bisector is given, else the touches of the face on which they separate most.
 class TouchFinder
 {
 public:
-  /// tolerance: m, the contact shell; shell: m, gap below which a vertex touches.
-  void find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance, std::vector<Touch>& touches);
+  /// tolerance: m, the contact shell; closed: m, below which a difference of gaps is rounding.
+  void find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,
+            std::vector<Touch>& touches, double closed = 0.0);
   /// Whether the last find had to choose between tied faces by the velocities.
   bool velocityDecided() const
   {
