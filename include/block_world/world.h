@@ -100,6 +100,8 @@ public:
 
   /// Applies a command at now(). A refused command changes nothing.
   Applied apply(const Command& command);
+  /// What apply would answer, without doing it.
+  Applied check(const Command& command) const;
 
   /// The scene with every set, spawn and delete merged, block states as at load.
   const Scene& scene() const;

@@ -188,16 +188,29 @@ Applied World::Engine::apply(const Command& command)
   return applyAt(command, now);
 }
 
+Applied World::Engine::check(const Command& command)
+{
+  return applyAt(command, now, true);
+}
+
 /// One overload a command; each checks everything before it changes anything.
 struct World::Engine::Handler
 {
   Engine& engine;
   Time time;
+  bool check_only;
   Applied result;
 
   void refuse(const std::string& reason)
   {
     result.reason = reason;
+  }
+
+  /// Every check passed; whether to go on and do it.
+  bool accept()
+  {
+    result.ok = true;
+    return !check_only;
   }
 
   /// Index of a movable block; -1 after a refusal.
@@ -229,6 +242,8 @@ struct World::Engine::Handler
         return refuse("levels[" + std::to_string(k) + "]: not within 0..1");
     if (negativeOrNotFinite(c.duration))
       return refuse("duration: negative or not finite");
+    if (!accept())
+      return;
     engine.closeIsland(i, time);
     body.levels = c.levels;
     if (c.duration == 0.0)
@@ -237,7 +252,6 @@ struct World::Engine::Handler
     body.thrust_until = any ? time + c.duration : Time::infinity();
     engine.refreshPush(body);
     engine.wake(i, time);
-    result.ok = true;
   }
 
   void operator()(SpringCommand c)
@@ -245,6 +259,8 @@ struct World::Engine::Handler
     if (!c.active)
     {
       if (!c.body.empty() && movable(c.body) < 0)
+        return;
+      if (!accept())
         return;
       for (int i = 0; i < engine.block_count; ++i)
       {
@@ -255,7 +271,6 @@ struct World::Engine::Handler
         engine.release(body, time);
         engine.wake(i, time);
       }
-      result.ok = true;
       return;
     }
     if (!finite(c.anchor))
@@ -278,6 +293,8 @@ struct World::Engine::Handler
     const int i = movable(c.body);
     if (i < 0)
       return;
+    if (!accept())
+      return;
     Body& body = engine.bodies[i];
     engine.closeIsland(i, time);
     engine.release(body, time);
@@ -290,7 +307,6 @@ struct World::Engine::Handler
     engine.dissipative_ = engine.dissipative_ || c.damping > 0.0;
     engine.spring_work_ += engine.mouseEnergy(body, time);
     engine.wake(i, time);
-    result.ok = true;
   }
 
   void operator()(const WrenchCommand& c)
@@ -302,13 +318,14 @@ struct World::Engine::Handler
       return refuse("force: not finite");
     if (!std::isfinite(c.torque))
       return refuse("torque: not finite");
+    if (!accept())
+      return;
     Body& body = engine.bodies[i];
     engine.closeIsland(i, time);
     body.wrench_force = c.force;
     body.wrench_torque = c.torque;
     engine.refreshPush(body);
     engine.wake(i, time);
-    result.ok = true;
   }
 
   void operator()(const SetCommand& c)
@@ -325,6 +342,8 @@ struct World::Engine::Handler
       return refuse("mass: not positive or not finite");
     if (c.mass && (engine.block_count == 0 || engine.bodies[0].fixed))
       return refuse("mass: the first block does not move");
+    if (!accept())
+      return;
     for (int i = 0; i < engine.block_count; ++i)
       if (!engine.bodies[i].fixed && engine.bodies[i].island == i)
         engine.closeIsland(i, time);
@@ -332,7 +351,6 @@ struct World::Engine::Handler
     engine.set(c);
     engine.command_work_ += engine.storedTotal(time) - before;
     engine.resolveAll(time);
-    result.ok = true;
   }
 
   void operator()(const SetStateCommand& c)
@@ -347,6 +365,8 @@ struct World::Engine::Handler
     std::string with;
     if (engine.overlaps(i, Frame(c.position, c.angle), time, with))
       return refuse("pose: '" + c.body + "' would overlap '" + with + "'");
+    if (!accept())
+      return;
     const double before = engine.storedTotal(time);
     engine.dissolve(i, time);
     BodyState state;
@@ -362,7 +382,6 @@ struct World::Engine::Handler
       engine.seeds_.assign(1, body);
       engine.resolve(time);
     }
-    result.ok = true;
   }
 
   void operator()(const SpawnCommand& c)
@@ -385,11 +404,12 @@ struct World::Engine::Handler
     {
       return refuse(error.what());
     }
+    if (!accept())
+      return;
     const double before = engine.storedTotal(time);
     engine.scene.blocks.push_back(with.blocks.back());
     engine.rebuild(time);
     engine.command_work_ += engine.storedTotal(time) - before;
-    result.ok = true;
   }
 
   void operator()(const DeleteCommand& c)
@@ -398,6 +418,8 @@ struct World::Engine::Handler
     const auto block = std::find_if(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.name == c.body; });
     if (block == scene.blocks.end())
       return refuse("body: there is no block '" + c.body + "'");
+    if (!accept())
+      return;
     const double before = engine.storedTotal(time);
     scene.blocks.erase(block);
     scene.springs.erase(std::remove_if(scene.springs.begin(), scene.springs.end(),
@@ -405,15 +427,15 @@ struct World::Engine::Handler
                         scene.springs.end());
     engine.rebuild(time);
     engine.command_work_ += engine.storedTotal(time) - before;
-    result.ok = true;
   }
 
   void operator()(const ResetCommand&)
   {
+    if (!accept())
+      return;
     engine.scene = engine.loaded_;
     engine.build();
     engine.start();
-    result.ok = true;
   }
 };
 
@@ -456,9 +478,9 @@ void World::Engine::set(const SetCommand& c)
   }
 }
 
-Applied World::Engine::applyAt(const Command& command, const Time& time)
+Applied World::Engine::applyAt(const Command& command, const Time& time, bool check_only)
 {
-  Handler handler{ *this, time, {} };
+  Handler handler{ *this, time, check_only, {} };
   handler.result.command = command;
   std::visit(handler, command);
   return handler.result;

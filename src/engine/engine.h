@@ -30,6 +30,7 @@ public:
 
   Time advance(Time target, std::int64_t max_events);
   Applied apply(const Command& command);
+  Applied check(const Command& command);
 
   Energy energy() const;
   std::vector<Contact> restingContacts() const;
@@ -109,7 +110,7 @@ private:
 
   // commands.cpp
   struct Handler;
-  Applied applyAt(const Command& command, const Time& time);
+  Applied applyAt(const Command& command, const Time& time, bool check_only = false);
   void expire(int body, const Time& time);
   void applyInputs(const Time& time);
   void expiryPromise(int body);

@@ -26,6 +26,11 @@ Applied World::apply(const Command& command)
   return engine_->apply(command);
 }
 
+Applied World::check(const Command& command) const
+{
+  return engine_->check(command);
+}
+
 const Scene& World::scene() const
 {
   return engine_->scene;

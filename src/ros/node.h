@@ -6,7 +6,6 @@
 #include <std_srvs/Trigger.h>
 
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,7 +66,6 @@ private:
   ros::CallbackQueue callbacks_;
   const Parameters parameters_;
   World world_;
-  std::optional<World> trial_;  ///< where commands of a step are tried first
   TimeBase time_;
   Publishers publishers_;
   Warnings warnings_;

@@ -128,15 +128,12 @@ std::vector<Node::Pending> Node::commandsOf(const msg::Step::Request& request) c
   return commands;
 }
 
-/// Applies all of them or, where one is bad, none, and says why. Whether a command is good depends on the blocks alone,
-/// not on where they are, so a second world that stands still can be asked first.
+/// Applies all of them or, where one is bad, none, and says why.
 std::string Node::applyAll(const std::vector<Pending>& commands)
 {
-  if (!commands.empty() && !trial_)
-    trial_.emplace(world_.scene());
   for (const Pending& pending : commands)
   {
-    const Applied applied = trial_->apply(pending.command);
+    const Applied applied = world_.check(pending.command);
     if (!applied.ok)
       return std::string(pending.topic) + ": " + applied.reason;
   }

@@ -1,0 +1,348 @@
+#include "complementarity.h"
+
+#include "bodies.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace block_world
+{
+namespace
+{
+using Rows = std::vector<std::vector<double>>;
+
+Rows randomRows(Random& random, int count, int rank)
+{
+  Rows rows(count, std::vector<double>(rank));
+  for (auto& row : rows)
+    for (double& entry : row)
+      entry = random.in(-1.0, 1.0);
+  return rows;
+}
+
+double dot(const std::vector<double>& p, const std::vector<double>& q)
+{
+  return std::inner_product(p.begin(), p.end(), q.begin(), 0.0);
+}
+
+SymmetricMatrix gramOf(const Rows& rows)
+{
+  SymmetricMatrix a;
+  a.resize(static_cast<int>(rows.size()));
+  for (int i = 0; i < a.size(); ++i)
+    for (int j = 0; j < a.size(); ++j)
+      a(i, j) = dot(rows[i], rows[j]);
+  return a;
+}
+
+std::vector<int> all(int count)
+{
+  std::vector<int> rows(count);
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
+std::vector<double> product(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& l)
+{
+  std::vector<double> result(rows.size(), 0.0);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t j = 0; j < rows.size(); ++j)
+      result[i] += a(rows[i], rows[j]) * l[j];
+  return result;
+}
+
+/// The conditions of Karush, Kuhn and Tucker, which hold at a minimum and only there, and an independent support.
+void expectMinimum(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Complementarity& solver)
+{
+  const std::vector<double>& l = solver.value();
+  ASSERT_EQ(l.size(), rows.size());
+  const std::vector<double> al = product(a, rows, l);
+  // A pivot may be 1e-11 of its diagonal, which amplifies rounding of the sums so far at worst; 1e-9 still sees any wrong row.
+  double scale = 1e-300, load = 0.0;
+  for (std::size_t i = 0; i < b.size(); ++i)
+  {
+    scale = std::max(scale, std::abs(b[i]));
+    for (std::size_t j = 0; j < b.size(); ++j)
+      scale = std::max(scale, std::abs(a(rows[i], rows[j]) * l[j]));
+    load = std::max(load, l[i]);
+  }
+  for (std::size_t i = 0; i < b.size(); ++i)
+  {
+    EXPECT_GE(l[i], 0.0);
+    EXPECT_GE(al[i] + b[i], -1e-9 * scale);
+    if (l[i] > 1e-12 * load)
+    {
+      EXPECT_NEAR(al[i] + b[i], 0.0, 1e-9 * scale);
+    }
+  }
+  Cholesky factor;
+  std::vector<int> expected;
+  for (std::size_t i = 0; i < l.size(); ++i)
+    if (l[i] > 1e-12 * load)
+      expected.push_back(static_cast<int>(i));
+  EXPECT_EQ(solver.support(), expected);
+  std::vector<double> row;
+  for (std::size_t k = 0; k < expected.size(); ++k)
+  {
+    row.clear();
+    for (std::size_t j = 0; j <= k; ++j)
+      row.push_back(a(rows[expected[k]], rows[expected[j]]));
+    // The pivots depend on the order; far from dependent in one order is independent in all.
+    EXPECT_TRUE(factor.append(row.data()));
+  }
+}
+
+TEST(Cholesky, SolvesWhatWasMultiplied)
+{
+  Random random(1);
+  for (int n = 1; n <= 30; ++n)
+  {
+    SymmetricMatrix a = gramOf(randomRows(random, n, n));
+    for (int i = 0; i < n; ++i)
+      a(i, i) += 1.0;
+    Cholesky factor;
+    std::vector<double> x(n), b;
+    for (double& value : x)
+      value = random.in(-1.0, 1.0);
+    b = product(a, all(n), x);
+    for (int i = 0; i < n; ++i)
+    {
+      std::vector<double> row(i + 1);
+      for (int j = 0; j <= i; ++j)
+        row[j] = a(i, j);
+      ASSERT_TRUE(factor.append(row.data()));
+    }
+    EXPECT_EQ(factor.size(), n);
+    factor.solve(b.data());
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(b[i], x[i], 1e-12);  // eps times a condition number below 1 + n^2 / 3 = 300
+  }
+}
+
+TEST(Cholesky, RefusesADependentRowAndGoesOn)
+{
+  // Rows (1, 0), (1, 1), (2, 1) = their sum, in the plane.
+  Cholesky factor;
+  const double first[] = { 1.0 }, second[] = { 1.0, 2.0 }, third[] = { 2.0, 3.0, 5.0 };
+  EXPECT_TRUE(factor.append(first));
+  EXPECT_TRUE(factor.append(second));
+  EXPECT_FALSE(factor.append(third));
+  EXPECT_EQ(factor.size(), 2);
+  double x[] = { 3.0, 4.0 };  // = A (2, 1)
+  factor.solve(x);
+  EXPECT_DOUBLE_EQ(x[0], 2.0);
+  EXPECT_DOUBLE_EQ(x[1], 1.0);
+  const double zero[] = { 0.0, 0.0, 0.0 };
+  EXPECT_FALSE(factor.append(zero));
+  factor.truncate(1);
+  const double third_of_first[] = { 2.0, 5.0 };
+  EXPECT_TRUE(factor.append(third_of_first));
+  double y[] = { 5.0, 12.0 };  // = (1 2; 2 5) (1, 2)
+  factor.solve(y);
+  EXPECT_DOUBLE_EQ(y[0], 1.0);
+  EXPECT_DOUBLE_EQ(y[1], 2.0);
+}
+
+TEST(Complementarity, ByHand)
+{
+  const struct
+  {
+    double a00, a01, a11, b0, b1, l0, l1;
+  } cases[] = {
+    { 1.0, 0.0, 1.0, -1.0, -2.0, 1.0, 2.0 },  // apart
+    { 1.0, 0.0, 1.0, 1.0, -2.0, 0.0, 2.0 },   // one opens
+    { 1.0, 0.0, 1.0, 1.0, 2.0, 0.0, 0.0 },    // both open
+    { 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0 },    // nothing happens
+    { 2.0, 1.0, 2.0, -3.0, -3.0, 1.0, 1.0 },
+    { 2.0, 1.0, 2.0, -4.0, -1.0, 2.0, 0.0 },  // the first opens the second
+    { 2.0, -1.0, 2.0, -3.0, 0.0, 2.0, 1.0 },  // the first closes the second
+  };
+  Complementarity solver;
+  for (const auto& c : cases)
+  {
+    SymmetricMatrix a;
+    a.resize(2);
+    a(0, 0) = c.a00;
+    a(0, 1) = a(1, 0) = c.a01;
+    a(1, 1) = c.a11;
+    const std::vector<int> rows = all(2);
+    solver.solve(a, rows, { c.b0, c.b1 });
+    EXPECT_DOUBLE_EQ(solver.value()[0], c.l0);
+    EXPECT_DOUBLE_EQ(solver.value()[1], c.l1);
+  }
+  solver.solve(SymmetricMatrix(), {}, {});
+  EXPECT_TRUE(solver.value().empty());
+  EXPECT_TRUE(solver.support().empty());
+}
+
+TEST(Complementarity, RandomOfAnyRank)
+{
+  Random random(2);
+  Complementarity solver;
+  for (int i = 0; i < 3000; ++i)
+  {
+    const int count = 1 + random.below(24), rank = 1 + random.below(12);
+    const Rows rows = randomRows(random, count, rank);
+    const SymmetricMatrix a = gramOf(rows);
+    // b = J u plus openings: bounded below however A is deficient.
+    const std::vector<double> u = randomRows(random, 1, rank).front();
+    std::vector<double> b;
+    for (const auto& row : rows)
+      b.push_back(dot(row, u) + (random.below(3) == 0 ? random.in(0.0, 1.0) : 0.0));
+    const std::vector<int> names = all(count);
+    solver.solve(a, names, b);
+    SCOPED_TRACE(i);
+    expectMinimum(a, names, b, solver);
+  }
+}
+
+TEST(Complementarity, RedundantRowsShareOneLoad)
+{
+  for (const int copies : { 2, 3, 10 })
+  {
+    const SymmetricMatrix a = gramOf(Rows(copies, { 3.0, 4.0 }));
+    const std::vector<int> names = all(copies);
+    const std::vector<double> b(copies, -50.0);
+    Complementarity solver;
+    solver.solve(a, names, b);
+    expectMinimum(a, names, b, solver);
+    EXPECT_EQ(solver.support().size(), 1u);
+    double sum = 0.0;
+    for (double l : solver.value())
+      sum += l;
+    EXPECT_DOUBLE_EQ(sum, 2.0);  // 25 l = 50
+  }
+}
+
+// Many rows in few dimensions with whole numbers: every tie there is. The velocities after J^T l are unique, whatever the order of the rows.
+TEST(Complementarity, OrderOfTheRowsDoesNotMatter)
+{
+  Random random(3);
+  for (int i = 0; i < 300; ++i)
+  {
+    Rows rows(15, std::vector<double>(3));
+    for (auto& row : rows)
+      for (double& entry : row)
+        entry = random.below(3) - 1;
+    const SymmetricMatrix a = gramOf(rows);
+    std::vector<int> names = all(15);
+    const std::vector<double> u{ random.in(-1.0, 1.0), random.in(-1.0, 1.0), random.in(-1.0, 1.0) };
+    std::vector<double> change[2];
+    for (int turn = 0; turn < 2; ++turn)
+    {
+      std::vector<double> b;
+      for (int name : names)
+        b.push_back(dot(rows[name], u));
+      Complementarity solver;
+      solver.solve(a, names, b);
+      SCOPED_TRACE(i);
+      expectMinimum(a, names, b, solver);
+      change[turn].assign(3, 0.0);
+      for (std::size_t k = 0; k < names.size(); ++k)
+        for (int d = 0; d < 3; ++d)
+          change[turn][d] += solver.value()[k] * rows[names[k]][d];
+      std::reverse(names.begin(), names.end());
+    }
+    for (int d = 0; d < 3; ++d)
+      EXPECT_NEAR(change[0][d], change[1][d], 1e-12);  // rows of whole numbers: condition below 100
+  }
+}
+
+TEST(Complementarity, SomeRowsOfALargerMatrix)
+{
+  Random random(4);
+  const Rows rows = randomRows(random, 20, 8);
+  const SymmetricMatrix a = gramOf(rows);
+  const std::vector<int> names{ 17, 3, 4, 11, 0 };
+  std::vector<double> b;
+  Rows chosen;
+  for (int name : names)
+  {
+    b.push_back(random.in(-1.0, 0.2));
+    chosen.push_back(rows[name]);
+  }
+  Complementarity some, alone;
+  some.solve(a, names, b);
+  const std::vector<int> count = all(5);
+  const SymmetricMatrix small = gramOf(chosen);
+  alone.solve(small, count, b);
+  EXPECT_EQ(some.value(), alone.value());
+  EXPECT_EQ(some.support(), alone.support());
+}
+
+// Held from both sides: J u is undone, and no load can grow without end.
+TEST(Complementarity, LockedRowsEnd)
+{
+  const Rows rows{ { 1.0, 0.0 }, { -1.0, 0.0 }, { 0.0, 1.0 }, { 0.0, -1.0 }, { 1.0, 1.0 }, { -1.0, -1.0 } };
+  const SymmetricMatrix a = gramOf(rows);
+  Random random(5);
+  for (int i = 0; i < 200; ++i)
+  {
+    const std::vector<double> u{ random.in(-1.0, 1.0), random.in(-1.0, 1.0) };
+    std::vector<double> b;
+    for (const auto& row : rows)
+      b.push_back(dot(row, u));
+    Complementarity solver;
+    const std::vector<int> names = all(6);
+    solver.solve(a, names, b);
+    expectMinimum(a, names, b, solver);
+    const std::vector<double> al = product(a, names, solver.value());
+    for (int k = 0; k < 6; ++k)
+      EXPECT_NEAR(al[k] + b[k], 0.0, 1e-14);  // the only velocity that enters no wall is zero; sums of six terms below 2
+  }
+}
+
+// Gordan: unit normals of the plane are locked exactly if no gap between neighbouring directions exceeds half a turn.
+TEST(Complementarity, TestOfGordan)
+{
+  Random random(6);
+  int locked_count = 0;
+  for (int i = 0; i < 1000; ++i)
+  {
+    const int count = 2 + random.below(5);
+    std::vector<double> angles;
+    Rows rows;
+    for (int k = 0; k < count; ++k)
+    {
+      angles.push_back(random.in(0.0, 2.0 * pi));
+      rows.push_back({ std::cos(angles.back()), std::sin(angles.back()) });
+    }
+    std::sort(angles.begin(), angles.end());
+    double widest = angles.front() + 2.0 * pi - angles.back();
+    for (int k = 1; k < count; ++k)
+      widest = std::max(widest, angles[k] - angles[k - 1]);
+    if (std::abs(widest - pi) < 1e-2)
+      continue;
+    SymmetricMatrix a = gramOf(rows);
+    for (int p = 0; p < count; ++p)
+      for (int q = 0; q < count; ++q)
+        a(p, q) += 1.0;
+    Complementarity solver;
+    const std::vector<int> names = all(count);
+    solver.solve(a, names, std::vector<double>(count, -1.0));
+    double sum = 0.0;
+    for (double l : solver.value())
+      sum += l;
+    const bool locked = widest < pi;
+    locked_count += locked;
+    // Unlocked by the angle x: some velocity of length 1 opens all by sin x/2 or more, so 1 - sum >= sin^2(x/2) / (1 + sin^2(x/2)) > 2e-5.
+    if (locked)
+    {
+      EXPECT_NEAR(sum, 1.0, 1e-12) << i;
+    }
+    else
+    {
+      EXPECT_LT(sum, 1.0 - 2e-5) << i;
+    }
+  }
+  EXPECT_GT(locked_count, 100);
+}
+
+}  // namespace
+}  // namespace block_world
+
+int main(int argc, char** argv)
+{
+  testing::InitGoogleTest(&argc, argv);
+  return RUN_ALL_TESTS();
+}
