@@ -62,8 +62,8 @@ inline std::vector<Vec2> roundish(Random& random, int corners, double radius)
 }
 
 /// A parabola from time zero on.
-inline void launch(Body& body, const Vec2& position, double angle = 0.0, const Vec2& velocity = Vec2::Zero(), double omega = 0.0,
-                   const Vec2& acceleration = Vec2::Zero(), double alpha = 0.0)
+inline void launch(Body& body, const Vec2& position, double angle = 0.0, const Vec2& velocity = Vec2::Zero(),
+                   double omega = 0.0, const Vec2& acceleration = Vec2::Zero(), double alpha = 0.0)
 {
   body.arc = Arc();
   body.arc.degree = 2;
@@ -121,7 +121,12 @@ inline ContactGroup groupOf(const std::vector<Body>& bodies, double tolerance = 
   for (std::size_t i = 0; i < bodies.size(); ++i)
     for (std::size_t j = i + 1; j < bodies.size(); ++j)
       if (!bodies[i].fixed || !bodies[j].fixed)
-        finder.find(bodies[i], group.members[i], bodies[j], group.members[j], tolerance, group.touches);
+      {
+        const std::size_t before = group.touches.size();
+        finder.find(bodies[i], group.members[i], bodies[j], group.members[j], tolerance, group.touches, 1e-13);
+        for (std::size_t t = before; t < group.touches.size(); ++t)
+          group.touches[t].pair = static_cast<int>(i * bodies.size() + j);
+      }
   for (Touch& touch : group.touches)
   {
     touch.member_a = touch.a;

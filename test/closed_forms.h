@@ -170,8 +170,8 @@ inline double fallTime(double top, double angle, const std::function<double(doub
 
 /// A ladder of half-length 1 and moment of inertia I (per kg) that slides down wall and floor from rest at angle a0:
 /// the centre moves on the unit circle, so w^2 (1 + I) / 2 = g (sin a0 - sin a). The wall pushes with m times
-/// d^2/dt^2 cos a = -cos a w^2 - sin a a'', zero where 2 (sin a0 - sin a) = sin a: sin a = 2/3 sin a0. From there on the
-/// centre keeps w sin a sideways.
+/// d^2/dt^2 cos a = -cos a w^2 - sin a a'', zero where 2 (sin a0 - sin a) = sin a: sin a = 2/3 sin a0. From there on
+/// the centre keeps w sin a sideways.
 struct Ladder
 {
   double gravity, inertia, start;
@@ -197,9 +197,9 @@ struct Ladder
 
 // ---------------------------------------------------------------------------------------------------- falling rod
 
-/// A body that falls from rest while one corner slides on the floor: no force acts sideways, so its centre falls straight
-/// down, at height R sin b with R the corner's distance and b the angle of the line from corner to centre. Energy:
-/// b'^2 (K^2 + R^2 cos^2 b) / 2 = g R (sin b0 - sin b), with K^2 the moment of inertia per kg.
+/// A body that falls from rest while one corner slides on the floor: no force acts sideways, so its centre falls
+/// straight down, at height R sin b with R the corner's distance and b the angle of the line from corner to centre.
+/// Energy: b'^2 (K^2 + R^2 cos^2 b) / 2 = g R (sin b0 - sin b), with K^2 the moment of inertia per kg.
 struct SlidingFall
 {
   double gravity, gyration, distance, start;
@@ -286,8 +286,8 @@ struct SpringBody
   }
 };
 
-/// m x'' = -k x - c x' from rest at x0, below critical damping: x = x0 exp(-c t / 2m) (cos qt + c / (2 m q) sin qt) with
-/// q^2 = k/m - (c / 2m)^2.
+/// m x'' = -k x - c x' from rest at x0, below critical damping: x = x0 exp(-c t / 2m) (cos qt + c / (2 m q) sin qt)
+/// with q^2 = k/m - (c / 2m)^2.
 inline double dampedOscillation(double x0, double mass, double stiffness, double damping, double t)
 {
   const double decay = 0.5 * damping / mass, q = std::sqrt(stiffness / mass - decay * decay);

@@ -52,12 +52,14 @@ std::vector<double> product(const SymmetricMatrix& a, const std::vector<int>& ro
 }
 
 /// The conditions of Karush, Kuhn and Tucker, which hold at a minimum and only there, and an independent support.
-void expectMinimum(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Complementarity& solver)
+void expectMinimum(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b,
+                   const Complementarity& solver)
 {
   const std::vector<double>& l = solver.value();
   ASSERT_EQ(l.size(), rows.size());
   const std::vector<double> al = product(a, rows, l);
-  // A pivot may be 1e-11 of its diagonal, which amplifies rounding of the sums so far at worst; 1e-9 still sees any wrong row.
+  // A pivot may be 1e-11 of its diagonal, which amplifies rounding of the sums so far at worst; 1e-9 still sees any
+  // wrong row.
   double scale = 1e-300, load = 0.0;
   for (std::size_t i = 0; i < b.size(); ++i)
   {
@@ -149,13 +151,12 @@ TEST(Complementarity, ByHand)
   {
     double a00, a01, a11, b0, b1, l0, l1;
   } cases[] = {
-    { 1.0, 0.0, 1.0, -1.0, -2.0, 1.0, 2.0 },  // apart
-    { 1.0, 0.0, 1.0, 1.0, -2.0, 0.0, 2.0 },   // one opens
-    { 1.0, 0.0, 1.0, 1.0, 2.0, 0.0, 0.0 },    // both open
-    { 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0 },    // nothing happens
-    { 2.0, 1.0, 2.0, -3.0, -3.0, 1.0, 1.0 },
-    { 2.0, 1.0, 2.0, -4.0, -1.0, 2.0, 0.0 },  // the first opens the second
-    { 2.0, -1.0, 2.0, -3.0, 0.0, 2.0, 1.0 },  // the first closes the second
+    { 1.0, 0.0, 1.0, -1.0, -2.0, 1.0, 2.0 },                                           // apart
+    { 1.0, 0.0, 1.0, 1.0, -2.0, 0.0, 2.0 },                                            // one opens
+    { 1.0, 0.0, 1.0, 1.0, 2.0, 0.0, 0.0 },                                             // both open
+    { 1.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0 },                                             // nothing happens
+    { 2.0, 1.0, 2.0, -3.0, -3.0, 1.0, 1.0 }, { 2.0, 1.0, 2.0, -4.0, -1.0, 2.0, 0.0 },  // the first opens the second
+    { 2.0, -1.0, 2.0, -3.0, 0.0, 2.0, 1.0 },                                           // the first closes the second
   };
   Complementarity solver;
   for (const auto& c : cases)
@@ -214,7 +215,8 @@ TEST(Complementarity, RedundantRowsShareOneLoad)
   }
 }
 
-// Many rows in few dimensions with whole numbers: every tie there is. The velocities after J^T l are unique, whatever the order of the rows.
+// Many rows in few dimensions with whole numbers: every tie there is. The velocities after J^T l are unique, whatever
+// the order of the rows.
 TEST(Complementarity, OrderOfTheRowsDoesNotMatter)
 {
   Random random(3);
@@ -287,8 +289,9 @@ TEST(Complementarity, LockedRowsEnd)
     solver.solve(a, names, b);
     expectMinimum(a, names, b, solver);
     const std::vector<double> al = product(a, names, solver.value());
+    // The only velocity that enters no wall is zero; sums of six terms below 2.
     for (int k = 0; k < 6; ++k)
-      EXPECT_NEAR(al[k] + b[k], 0.0, 1e-14);  // the only velocity that enters no wall is zero; sums of six terms below 2
+      EXPECT_NEAR(al[k] + b[k], 0.0, 1e-14);
   }
 }
 
@@ -325,7 +328,8 @@ TEST(Complementarity, TestOfGordan)
       sum += l;
     const bool locked = widest < pi;
     locked_count += locked;
-    // Unlocked by the angle x: some velocity of length 1 opens all by sin x/2 or more, so 1 - sum >= sin^2(x/2) / (1 + sin^2(x/2)) > 2e-5.
+    // Unlocked by the angle x: some velocity of length 1 opens all by sin x/2 or more, so 1 - sum >= sin^2(x/2) / (1 +
+    // sin^2(x/2)) > 2e-5.
     if (locked)
     {
       EXPECT_NEAR(sum, 1.0, 1e-12) << i;

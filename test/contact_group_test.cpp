@@ -8,8 +8,8 @@ namespace block_world
 {
 namespace
 {
-Body boxAt(double width, double height, const Vec2& position, const Vec2& velocity, double mass = 1.0, double elasticity = 1.0,
-           const Vec2& acceleration = Vec2::Zero())
+Body boxAt(double width, double height, const Vec2& position, const Vec2& velocity, double mass = 1.0,
+           double elasticity = 1.0, const Vec2& acceleration = Vec2::Zero())
 {
   Body body = block(rectangle(width, height), mass, elasticity);
   launch(body, position, 0.0, velocity, 0.0, acceleration);
@@ -33,17 +33,19 @@ double velocityAt(const ContactGroup& group, const Touch& t)
 /// A box on a floor at y = 0, under gravity unless told otherwise.
 ContactGroup boxOnFloor(double speed, double elasticity, double acceleration = -9.81, double gap = 0.0)
 {
-  return groupOf({ wall(Vec2(0.0, 1.0), 0.0),
-                   boxAt(1.0, 0.5, Vec2(0.0, 0.25 + gap), Vec2(0.0, speed), 2.0, elasticity, Vec2(0.0, acceleration)) });
+  return groupOf({ wall(Vec2(0.0, 1.0), 0.0), boxAt(1.0, 0.5, Vec2(0.0, 0.25 + gap), Vec2(0.0, speed), 2.0, elasticity,
+                                                    Vec2(0.0, acceleration)) });
 }
 
-// Equation (11): j = -(1 + e) w / (1/m_a + 1/m_b + (r_a x n)^2/I_a + (r_b x n)^2/I_b), with arms to the point of contact, n from b to a.
+// Equation (11): j = -(1 + e) w / (1/m_a + 1/m_b + (r_a x n)^2/I_a + (r_b x n)^2/I_b), with arms to the point of
+// contact, n from b to a.
 TEST(ContactGroup, SingleContactIsEquation11)
 {
   Random random(1);
   for (int i = 0; i < 200; ++i)
   {
-    const double e = i % 3 == 0 ? 1.0 : random.in(0.1, 1.0), x = random.in(-0.9, 0.9), angle = pi / 4.0 + random.in(-0.5, 0.5);
+    const double e = i % 3 == 0 ? 1.0 : random.in(0.1, 1.0), x = random.in(-0.9, 0.9),
+                 angle = pi / 4.0 + random.in(-0.5, 0.5);
     Body lower = boxAt(2.0, 1.0, Vec2::Zero(), Vec2::Zero(), random.in(0.1, 10.0), e);
     launch(lower, Vec2::Zero(), 0.0, random.vector(1.0), random.in(-1.0, 1.0));
     if (i % 2 == 0)
@@ -56,8 +58,9 @@ TEST(ContactGroup, SingleContactIsEquation11)
     const Vec2 n(0.0, 1.0), lower_arm(x, 0.5);
     const Member b = group.members[0], a = group.members[1];
     const double w = n.dot(a.velocity + a.omega * perp(arm) - b.velocity - b.omega * perp(lower_arm));
-    const double j = -(1.0 + e) * w / (a.inverse_mass + b.inverse_mass + std::pow(cross(arm, n), 2) * a.inverse_inertia +
-                                       std::pow(cross(lower_arm, n), 2) * b.inverse_inertia);
+    const double j = -(1.0 + e) * w /
+                     (a.inverse_mass + b.inverse_mass + std::pow(cross(arm, n), 2) * a.inverse_inertia +
+                      std::pow(cross(lower_arm, n), 2) * b.inverse_inertia);
     group.collide(ContactScales());
     // A dozen operations on numbers below 100.
     EXPECT_NEAR(group.touches[0].impulse, j, 1e-12);
@@ -84,11 +87,21 @@ TEST(ContactGroup, Cradles)
     { "two strikers", { 1, 1, 1, 1, 1 }, { 1, 1, 0, 0, 0 }, 1.0, { 0, 0, 0, 1, 1 }, 1e-15 },
     { "from both ends", { 1, 1, 1, 1, 1 }, { 1, 0, 0, 0, -1 }, 1.0, { -1, 0, 0, 0, 1 }, 2e-15 },
     // The middle is struck from both sides at once: the three velocities 1, 0, -2 turn about their mean.
-    { "from both ends, unequal", { 1, 1, 1, 1, 1 }, { 1, 0, 0, 0, -2 }, 1.0, { -5 / 3., -2 / 3., 0, 0, 4 / 3. }, 2e-15 },
+    { "from both ends, unequal",
+      { 1, 1, 1, 1, 1 },
+      { 1, 0, 0, 0, -2 },
+      1.0,
+      { -5 / 3., -2 / 3., 0, 0, 4 / 3. },
+      2e-15 },
     // Hits one after the other between separate blocks, to the digits given.
     { "e = .9", { 1, 1, 1, 1, 1 }, { 1, 0, 0, 0, 0 }, 0.9, { .0435, .0454, .0473, .0493, .8145 }, 0.5001e-4 },
     // Two hits after each other: of 1 by 1000 and of 1000 by 1.
-    { "1, 1000, 1", { 1, 1000, 1 }, { 1, 0, 0 }, 1.0, { -999 / 1001., 2 / 1001. * 999 / 1001., 2 / 1001. * 2000 / 1001. }, 1e-15 },
+    { "1, 1000, 1",
+      { 1, 1000, 1 },
+      { 1, 0, 0 },
+      1.0,
+      { -999 / 1001., 2 / 1001. * 999 / 1001., 2 / 1001. * 2000 / 1001. },
+      1e-15 },
     { "inelastic", { 1, 2, 3 }, { 6, 0, 0 }, 0.0, { 1, 1, 1 }, 2e-15 },
   };
   for (const Case& c : cases)
@@ -104,6 +117,19 @@ TEST(ContactGroup, Cradles)
       EXPECT_NEAR(group.members[i].omega, 0.0, 1e-14) << i;
     }
   }
+}
+
+TEST(ContactGroup, HitsOfOtherPairsWaitForTheirOwnTime)
+{
+  // The third block stands .3 of a tolerance apart: within the shell, but not yet struck.
+  std::vector<Body> bodies = cradle({ 1.0, 2.0, 1.0 }, { 3.0, 0.0, 0.0 }, 1.0);
+  bodies[2].arc.x[0] += 3e-7;
+  ContactGroup group = groupOf(bodies);
+  ASSERT_EQ(group.touches.size(), 4u);
+  group.collide(ContactScales());
+  const double after[] = { -1.0, 2.0, 0.0 };
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(group.members[i].velocity.x(), after[i], 1e-15);
 }
 
 TEST(ContactGroup, FlatLandingDoesNotSpin)
@@ -123,8 +149,9 @@ TEST(ContactGroup, FlatLandingDoesNotSpin)
 TEST(ContactGroup, OneBlockOnTwo)
 {
   // By hand: three stages, the block on the supports, these on the floor, these on the block.
-  ContactGroup group = groupOf({ wall(Vec2(0.0, 1.0), 0.0), boxAt(2.0, 0.5, Vec2(0.0, 1.25), Vec2(0.0, -1.0)),
-                                 boxAt(0.6, 1.0, Vec2(-0.5, 0.5), Vec2::Zero()), boxAt(0.6, 1.0, Vec2(0.5, 0.5), Vec2::Zero()) });
+  ContactGroup group =
+      groupOf({ wall(Vec2(0.0, 1.0), 0.0), boxAt(2.0, 0.5, Vec2(0.0, 1.25), Vec2(0.0, -1.0)),
+                boxAt(0.6, 1.0, Vec2(-0.5, 0.5), Vec2::Zero()), boxAt(0.6, 1.0, Vec2(0.5, 0.5), Vec2::Zero()) });
   group.collide(ContactScales());
   EXPECT_NEAR(group.members[1].velocity.y(), 7.0 / 9.0, 4e-15);
   EXPECT_NEAR(group.members[2].velocity.y(), 4.0 / 9.0, 4e-15);
@@ -144,7 +171,8 @@ TEST(ContactGroup, SquareInAGroove)
     const double half_diagonal = std::sqrt(0.5);
     Body square = block(rectangle(1.0, 1.0), 1.0, e);
     launch(square, Vec2(0.0, half_diagonal), pi / 4.0, Vec2(0.0, -1.0));
-    ContactGroup group = groupOf({ wall(Vec2(1.0, 1.0).normalized(), 0.0), wall(Vec2(-1.0, 1.0).normalized(), 0.0), square });
+    ContactGroup group =
+        groupOf({ wall(Vec2(1.0, 1.0).normalized(), 0.0), wall(Vec2(-1.0, 1.0).normalized(), 0.0), square });
     EXPECT_EQ(group.touches.size(), 4u);
     group.collide(ContactScales());
     expectNear(group.members[2].velocity, Vec2(0.0, e), 1e-14);
@@ -162,7 +190,52 @@ TEST(ContactGroup, LockedSlotTakesWhatCannotLeave)
     const double loss = group.collide(ContactScales());
     expectNear(group.members[2].velocity, Vec2(0.0, 0.25), 1e-12);
     EXPECT_NEAR(group.members[2].omega, 0.0, 1e-12);
-    EXPECT_NEAR(loss, 1.0, 1e-12);  // m v^2 / 2, over at most 50 stages that each round once or twice
+    EXPECT_NEAR(loss, 1.0, 1e-12);  // m v^2 / 2, over some 50 stages that each round once or twice
+    // Recognised after 50 stages of at most 2 m v, not after a thousand.
+    double impulse = 0.0;
+    for (const Touch& t : group.touches)
+      impulse += t.impulse;
+    EXPECT_LE(impulse, 51 * 2.0 * 2.0);
+  }
+}
+
+// A plug in a slot that opens by two degrees: a billiard in a wedge, some 90 reflections before it leaves. Not locked.
+TEST(ContactGroup, NarrowWedgeThrowsItsPlugOut)
+{
+  const double half = pi / 180.0, slope = std::tan(half);
+  std::vector<Vec2> corners{ Vec2(-5.0 * slope, 5.0), Vec2(5.0 * slope, 5.0), Vec2(6.0 * slope, 6.0),
+                             Vec2(-6.0 * slope, 6.0) };
+  const Vec2 centre = areaMoments(corners).centroid;
+  for (Vec2& p : corners)
+    p -= centre;
+  Body plug = block(corners, 2.0);
+  launch(plug, centre, 0.0, Vec2(0.1, -1.0));
+  ContactGroup group = groupOf(
+      { wall(Vec2(std::cos(half), std::sin(half)), 0.0), wall(Vec2(-std::cos(half), std::sin(half)), 0.0), plug });
+  ASSERT_EQ(group.touches.size(), 4u);
+  const double loss = group.collide(ContactScales());
+  // Unfolded, the plug flies straight: 1.01 m/s at a heading that no wall crosses any more. A hundred stages of a few
+  // eps.
+  EXPECT_NEAR(group.members[2].velocity.norm(), std::sqrt(1.01), 1e-13);
+  EXPECT_GT(group.members[2].velocity.y(), 1.0);
+  EXPECT_LT(std::abs(group.members[2].velocity.x()), slope * group.members[2].velocity.y());
+  EXPECT_NEAR(loss, 0.0, 1e-13);
+}
+
+// Struck from both sides with unlike elasticities, the light one in the middle would leave with four times the energy
+// there was.
+TEST(ContactGroup, UnlikeElasticitiesGainNothing)
+{
+  for (const double e : { 0.0, 0.2, 0.5, 0.9 })
+  {
+    std::vector<Body> bodies = cradle({ 10.0, 0.1, 10.0 }, { 1.0, 0.0, -1.0 }, 1.0);
+    bodies[2].elasticity = e;
+    ContactGroup group = groupOf(bodies);
+    EXPECT_GE(group.collide(ContactScales()), 0.0);
+    EXPECT_LE(kineticEnergy(group.members), 10.0) << e;
+    EXPECT_NEAR(group.members[0].velocity.x() * 10.0 + group.members[1].velocity.x() * 0.1 +
+                    group.members[2].velocity.x() * 10.0,
+                0.0, 1e-13);
   }
 }
 
@@ -243,93 +316,6 @@ TEST(ContactGroup, OnlyWhatIsDeepIsLifted)
     EXPECT_NEAR(group.settlePositions(1e-14, loss), gap < 0.0 ? -gap : 0.0, 1e-15);
     EXPECT_NEAR(group.members[1].frame.position.y(), 0.25 + std::max(gap, 0.0), 1e-15);
   }
-}
-
-/// Random boxes on the cells of a grid, flush with their neighbours, perhaps on a floor and between walls.
-std::vector<Body> heap(Random& random, bool walls, double elasticity)
-{
-  std::vector<Body> bodies;
-  if (walls)
-  {
-    bodies.push_back(wall(Vec2(0.0, 1.0), 0.0, elasticity < 0.0 ? 1.0 : elasticity));
-    if (random.below(2) == 0)
-      bodies.push_back(wall(Vec2(1.0, 0.0), 0.0, elasticity < 0.0 ? 0.5 : elasticity));
-  }
-  for (int x = 0; x < 3; ++x)
-    for (int y = 0; y < 3; ++y)
-    {
-      if (random.below(4) == 0)
-        continue;
-      Body body = boxAt(1.0, 1.0, Vec2::Zero(), Vec2::Zero(), std::pow(10.0, random.in(-1.0, 1.0)), elasticity < 0.0 ? random.in(0.0, 1.0) : elasticity);
-      launch(body, Vec2(x + 0.5, y + 0.5), 0.0, random.vector(1.0), random.in(-1.0, 1.0), Vec2(0.0, random.below(2) == 0 ? -9.81 : 0.0));
-      bodies.push_back(body);
-    }
-  return bodies;
-}
-
-TEST(ContactGroup, RandomHeapsEndWithoutApproachAndBookTheirEnergy)
-{
-  Random random(2);
-  for (int i = 0; i < 600; ++i)
-  {
-    SCOPED_TRACE(i);
-    const double elasticities[] = { 1.0, 0.9, 0.5, 0.0, -1.0 };
-    const double elasticity = elasticities[i % 5];
-    const std::vector<Body> bodies = heap(random, i % 2 == 0, elasticity);
-    if (bodies.size() < 2)
-      continue;
-    ContactGroup group = groupOf(bodies);
-    const std::vector<Member> before = group.members;
-    const double energy_before = kineticEnergy(before);
-    const double loss = group.collide(ContactScales());
-    const double energy = kineticEnergy(group.members);
-    // Every stage rounds energies by a few eps; hundreds of stages at most.
-    EXPECT_NEAR(energy_before - energy, loss, 1e-12 * energy_before);
-    EXPECT_LE(energy, energy_before * (1.0 + 1e-13));
-    for (const Touch& t : group.touches)
-    {
-      EXPECT_GE(velocityAt(group, t), -2.0 * group.noise());
-      if (t.active)
-      {
-        EXPECT_NEAR(velocityAt(group, t), 0.0, 2.0 * group.noise());
-        EXPECT_GT(t.force, 0.0);
-      }
-      EXPECT_GE(t.impulse, 0.0);
-    }
-    if (bodies.front().fixed)
-      continue;
-    Vec2 momentum = Vec2::Zero();
-    double spin = 0.0, size = 0.0;
-    for (std::size_t k = 0; k < before.size(); ++k)
-    {
-      const Member &m = group.members[k], &old = before[k];
-      const Vec2 change = (m.velocity - old.velocity) / m.inverse_mass;
-      momentum += change;
-      spin += cross(m.frame.position, change) + (m.omega - old.omega) / m.inverse_inertia;
-      size += change.norm() + 1.0;
-    }
-    expectNear(momentum, Vec2::Zero(), 1e-13 * size);
-    EXPECT_NEAR(spin, 0.0, 1e-12 * size);
-  }
-}
-
-TEST(ContactGroup, ElasticHeapsKeepTheirEnergy)
-{
-  Random random(3);
-  int kept = 0;
-  for (int i = 0; i < 200; ++i)
-  {
-    std::vector<Body> bodies = heap(random, false, 1.0);
-    for (Body& body : bodies)  // weightless: nothing is captured, and a free heap can always fly apart
-      body.arc.y[2] = 0.0;
-    ContactGroup group = groupOf(bodies);
-    const double before = kineticEnergy(group.members);
-    group.collide(ContactScales());
-    // Slow touches pressed by the turning of the blocks may be captured below 1e-6 m/s.
-    EXPECT_NEAR(kineticEnergy(group.members), before, 1e-9 * before) << i;
-    kept += before > 0.0;
-  }
-  EXPECT_GT(kept, 150);
 }
 
 }  // namespace

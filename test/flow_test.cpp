@@ -1,129 +1,13 @@
 #include "flow.h"
 
-#include "bodies.h"
+#include "motion.h"
 
 #include <algorithm>
-#include <functional>
 
 namespace block_world
 {
 namespace
 {
-/// Bodies that move as one for a while: arc after arc.
-class Motion
-{
-public:
-  std::vector<Body> bodies;
-  std::vector<SpringLink> links;
-  Field field;
-  std::vector<Rest> rests;
-  Time now;
-  int arcs = 0;
-  double worst_gap = 0.0;  ///< of the rests, looked at along every arc
-
-  /// Rests from the touches that carry force at the start.
-  void findRests()
-  {
-    ContactGroup group = groupOf(bodies);
-    for (Member& m : group.members)
-      if (!bodies[m.body].fixed)
-        m.acceleration = Vec2(0.0, -field.gravity);
-    group.collide(ContactScales());
-    for (const Touch& touch : group.touches)
-      if (touch.active)
-      {
-        rests.push_back(Rest());
-        rests.back().touch = touch;
-      }
-  }
-
-  void expand()
-  {
-    std::vector<Member> members;
-    std::vector<int> member_of(bodies.size(), -1);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-      if (!bodies[i].fixed)
-      {
-        member_of[i] = static_cast<int>(members.size());
-        members.push_back(memberAt(bodies[i], static_cast<int>(i), now));
-      }
-    for (Rest& rest : rests)
-    {
-      Touch& t = rest.touch;
-      const Member a = memberAt(bodies[t.a], t.a, now), b = memberAt(bodies[t.b], t.b, now);
-      const Face& face = bodies[t.b].shape.faces[t.face];
-      t.member_a = member_of[t.a];
-      t.member_b = member_of[t.b];
-      t.arm = a.frame.rotate(bodies[t.a].shape.vertices[t.vertex]);
-      t.reach = a.frame.position + t.arm - b.frame.position;
-      t.normal = b.frame.rotate(face.normal);
-      t.along = perp(t.normal).dot(t.reach - b.frame.rotate(face.start));
-    }
-    flow_.expand(bodies, links, field, now, members, rests);
-    ++arcs;
-  }
-
-  void runTo(double seconds)
-  {
-    const Time target = Time::fromSeconds(seconds);
-    while (now < target && arcs < 100000)
-    {
-      expand();
-      Time next = target;
-      for (const Body& body : bodies)
-        if (!body.fixed)
-          next = std::min(next, body.arc.end);
-      for (int k = 0; k <= 10; ++k)
-        for (const Rest& rest : rests)
-        {
-          const Time time = now + 0.1 * k * (next - now);
-          const Member a = memberAt(bodies[rest.touch.a], 0, time), b = memberAt(bodies[rest.touch.b], 1, time);
-          const Face& face = bodies[rest.touch.b].shape.faces[rest.touch.face];
-          const Vec2 vertex = a.frame.toWorld(bodies[rest.touch.a].shape.vertices[rest.touch.vertex]);
-          worst_gap = std::max(worst_gap, std::abs(face.normal.dot(b.frame.toBody(vertex)) - face.offset));
-        }
-      now = next;
-    }
-  }
-
-  Snapshot at(int body) const
-  {
-    return bodies[body].at(now);
-  }
-
-private:
-  Flow flow_;
-};
-
-using State = std::vector<double>;
-
-/// Classical Runge-Kutta method with steps small enough for rounding to rule: the independent reference.
-State integrate(const std::function<State(const State&)>& rate, State y, double span, int steps)
-{
-  const double h = span / steps;
-  const auto moved = [](const State& y, double h, const State& k) {
-    State result = y;
-    for (std::size_t i = 0; i < y.size(); ++i)
-      result[i] += h * k[i];
-    return result;
-  };
-  for (int n = 0; n < steps; ++n)
-  {
-    const State k1 = rate(y), k2 = rate(moved(y, h / 2, k1)), k3 = rate(moved(y, h / 2, k2)), k4 = rate(moved(y, h, k3));
-    for (std::size_t i = 0; i < y.size(); ++i)
-      y[i] += h / 6 * (k1[i] + 2 * k2[i] + 2 * k3[i] + k4[i]);
-  }
-  return y;
-}
-
-void expectState(const Snapshot& now, const State& y, double error)
-{
-  expectNear(now.position, Vec2(y[0], y[1]), error);
-  EXPECT_NEAR(now.angle, y[2], error);
-  expectNear(now.velocity, Vec2(y[3], y[4]), 10 * error);
-  EXPECT_NEAR(now.omega, y[5], 10 * error);
-}
-
 TEST(Flow, FreeFlightIsTheParabola)
 {
   Motion run;
@@ -189,7 +73,11 @@ TEST(Flow, ThrustAndTorqueAgainstRungeKutta)
   const State y = integrate(
       [&](const State& y) {
         const double c = std::cos(y[2]), s = std::sin(y[2]);
-        return State{ y[3], y[4], y[5], (3.0 * c - 15.0 * s - 0.3 * y[3]) / m, (3.0 * s + 15.0 * c - 0.3 * y[4]) / m - 9.81,
+        return State{ y[3],
+                      y[4],
+                      y[5],
+                      (3.0 * c - 15.0 * s - 0.3 * y[3]) / m,
+                      (3.0 * s + 15.0 * c - 0.3 * y[4]) / m - 9.81,
                       (0.7 - 0.02 * y[5]) / inertia };
       },
       { 1.0, 2.0, 0.5, 3.0, 4.0, -2.0 }, 2.0, 20000);
@@ -247,8 +135,8 @@ TEST(Flow, SpringWithLengthAndDamperAgainstRungeKutta)
     run.bodies[1].arc.x[0] = anchor.x();
     run.bodies[1].arc.y[0] = anchor.y() - 0.25;
     run.bodies[1].arc.angle[0] = pi / 2.0;
-    run.links = { anchored_first ? SpringLink{ 1, 0, Vec2(0.25, 0.0), attach, 40.0, 1.2, 0.9 }
-                                 : SpringLink{ 0, -1, attach, anchor, 40.0, 1.2, 0.9 } };
+    run.links = { anchored_first ? SpringLink{ 1, 0, Vec2(0.25, 0.0), attach, 40.0, 1.2, 0.9 } :
+                                   SpringLink{ 0, -1, attach, anchor, 40.0, 1.2, 0.9 } };
     run.bodies[0].springs = { 0 };
     const double inertia = run.bodies[0].inertia;
     const State y = integrate(
@@ -305,7 +193,8 @@ TEST(Flow, ForceOfALoadOffCentreIsSharedByTheLever)
     EXPECT_NEAR(rest.force[0], rest.touch.arm.x() > 0.0 ? 10.0 + 4.5 : 10.0 + 1.5, 1e-13);
 }
 
-// A rhombus that slides down between floor and wall: (I + m l^2) q'' = -m g l cos q with l half its length, q its angle to the floor.
+// A rhombus that slides down between floor and wall: (I + m l^2) q'' = -m g l cos q with l half its length, q its angle
+// to the floor.
 TEST(Flow, LadderFollowsItsEquation)
 {
   Motion run;
@@ -322,9 +211,14 @@ TEST(Flow, LadderFollowsItsEquation)
   // At the start x'' = -l sin q q'' > 0 and y'' = l cos q q'' < 0 are what the wall and the floor leave of the forces.
   const double turn = -m * 9.81 * l * std::cos(q) / moment;
   for (const Rest& rest : run.rests)
-    EXPECT_NEAR(rest.force[0], rest.touch.b == 1 ? -m * l * std::sin(q) * turn : m * (9.81 + l * std::cos(q) * turn), 1e-12);
+    EXPECT_NEAR(rest.force[0], rest.touch.b == 1 ? -m * l * std::sin(q) * turn : m * (9.81 + l * std::cos(q) * turn),
+                1e-12);
 
-  const State y = integrate([&](const State& y) { return State{ y[1], -m * 9.81 * l * std::cos(y[0]) / moment }; }, { q, 0.0 }, 0.4, 4000);
+  const State y = integrate(
+      [&](const State& y) {
+        return State{ y[1], -m * 9.81 * l * std::cos(y[0]) / moment };
+      },
+      { q, 0.0 }, 0.4, 4000);
   run.runTo(0.4);
   // 1e-15 per arc, some ten arcs; the reference h^4 = 1e-16.
   EXPECT_NEAR(-run.at(2).angle, y[0], 1e-13);
@@ -338,7 +232,8 @@ TEST(Flow, BlockOnAWedge)
 {
   Motion run;
   run.field.gravity = 9.81;
-  Body wedge = block({ Vec2(-2.0 / 3.0, -1.0 / 3.0), Vec2(4.0 / 3.0, -1.0 / 3.0), Vec2(-2.0 / 3.0, 2.0 / 3.0) }, 4.0, 0.0);
+  Body wedge =
+      block({ Vec2(-2.0 / 3.0, -1.0 / 3.0), Vec2(4.0 / 3.0, -1.0 / 3.0), Vec2(-2.0 / 3.0, 2.0 / 3.0) }, 4.0, 0.0);
   launch(wedge, Vec2(0.0, 1.0 / 3.0));
   Body tip = block(rectangle(0.4, 0.4), 1.0, 0.0);
   const double angle = -std::atan(0.5);  // flat on the slope

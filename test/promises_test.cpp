@@ -47,7 +47,8 @@ TEST(Promises, RandomUpdatesAgainstALinearSearch)
     {
       const int slot = random.below(slots);
       // Few different instants, so that many tie; some the smallest fraction apart.
-      const Time time = random.below(5) == 0 ? Time::infinity() : Time::fromSeconds(random.below(20)) + random.below(2) * 1.2e-16;
+      const Time time =
+          random.below(5) == 0 ? Time::infinity() : Time::fromSeconds(random.below(20)) + random.below(2) * 1.2e-16;
       promises.set(slot, time);
       reference[slot] = time;
       ASSERT_EQ(promises.first(), firstOf(reference));

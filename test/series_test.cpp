@@ -72,15 +72,17 @@ TEST(Evaluate, DegreeEndsTheSum)
 TEST(Cauchy, ProductOfExponentialsIsAnExponential)
 {
   const Series a = exponential(0.7), b = exponential(0.4), product = exponential(1.1);
+  // Positive terms, three coefficients of up to 16 products each.
   for (int n = 0; n <= kOrder; ++n)
-    EXPECT_NEAR(cauchy(a, b, n) / product[n], 1.0, 80 * eps);  // positive terms, three coefficients of up to 16 products each
+    EXPECT_NEAR(cauchy(a, b, n) / product[n], 1.0, 80 * eps);
 }
 
 TEST(Shifted, BinomialMovesIntoItsBase)
 {
   const Series moved = shifted(binomials(), 16, 0.5);
+  // Positive terms, two schemes of 16 orders.
   for (const double s : { 0.0, 0.25, 1.0 })
-    EXPECT_NEAR(evaluate(moved, 16, s) / std::pow(1.5 + s, 16), 1.0, 80 * eps);  // positive terms, two schemes of 16 orders
+    EXPECT_NEAR(evaluate(moved, 16, s) / std::pow(1.5 + s, 16), 1.0, 80 * eps);
 }
 
 TEST(Shifted, RandomPolynomials)
@@ -113,7 +115,8 @@ TEST(TrigonometricSeries, CosineAndSineOfAPolynomialAngle)
     trigonometricSeries(angle, degree, kOrder, cosine, sine);
     for (const double s : { -0.05, 0.03, 0.05 })
     {
-      // Coefficients stay below exp(1 / (1 - 2 s) ) 2^n or so: (2 s)^17 = 1e-17 is left out, and order 17 of the angle, 1e-22.
+      // Coefficients stay below exp(1 / (1 - 2 s) ) 2^n or so: (2 s)^17 = 1e-17 is left out, and order 17 of the angle,
+      // 1e-22.
       EXPECT_NEAR(evaluate(cosine, kOrder, s), std::cos(evaluate(angle, degree, s)), 16 * eps);
       EXPECT_NEAR(evaluate(sine, kOrder, s), std::sin(evaluate(angle, degree, s)), 16 * eps);
     }
@@ -126,17 +129,17 @@ TEST(FirstZero, KnownRoots)
   {
     double g, v, a, root;
   } cases[] = {
-    { 1.0, -1.0, 0.0, 1.0 },                               // straight
-    { 1.0, 0.0, -2.0, 1.0 },                               // dropped
-    { 1.0, -2.0, 2.0, 1.0 },                               // double root
-    { 1.0, -3.0, 4.0, 0.5 },                               // the first of 1/2 and 1
-    { 1.0, 1.0, -2.0, (1.0 + std::sqrt(5.0)) / 2.0 },      // thrown up
-    { 0.0, 1.0, -2.0, 1.0 },                               // from zero up and back
-    { 0.0, -1.0, 0.0, 0.0 },                               // from zero down
-    { 1.0, 1.0, 1.0, never },                              // opens
+    { 1.0, -1.0, 0.0, 1.0 },                           // straight
+    { 1.0, 0.0, -2.0, 1.0 },                           // dropped
+    { 1.0, -2.0, 2.0, 1.0 },                           // double root
+    { 1.0, -3.0, 4.0, 0.5 },                           // the first of 1/2 and 1
+    { 1.0, 1.0, -2.0, (1.0 + std::sqrt(5.0)) / 2.0 },  // thrown up
+    { 0.0, 1.0, -2.0, 1.0 },                           // from zero up and back
+    { 0.0, -1.0, 0.0, 0.0 },                           // from zero down
+    { 1.0, 1.0, 1.0, never },                          // opens
     { 1.0, 1.0, 0.0, never },
     { 1.0, 0.0, 0.0, never },
-    { 1.0, -1.0, 0.51, never },                            // turns back just above zero
+    { 1.0, -1.0, 0.51, never },  // turns back just above zero
   };
   for (const auto& c : cases)
   {
@@ -162,7 +165,8 @@ TEST(FirstZero, NoCancellationAtAnyScale)
     const bool later = random.below(2) == 0;
     const double other = later ? root * ratio : -root * std::pow(10.0, random.in(-20.0, 20.0));
     const double half = later ? 1.0 : -1.0;
-    // Roots at least a factor of two apart: relative condition below 6, with four roundings of half an eps in the data and five in the formula.
+    // Roots at least a factor of two apart: relative condition below 6, with four roundings of half an eps in the data
+    // and five in the formula.
     EXPECT_NEAR(firstZero(half * root * other, -half * (root + other), 2.0 * half) / root, 1.0, 32 * eps);
   }
 }
@@ -174,18 +178,18 @@ TEST(FirstBelow, Openings)
     Series c;
     double horizon, floor, expected;
   } cases[] = {
-    { { 0.0, 0.0, 1.0 }, 10.0, -1e-13, never },        // opens like s^2 from zero, guarded below
-    { { 0.0, 0.0, 0.0, 1.0 }, 10.0, -1e-13, never },   // like s^3, as a release does
-    { { 0.0, 0.0, -1.0 }, 10.0, -1e-12, 1e-6 },        // sinks like s^2
-    { { 0.0, 0.0, 0.0, -1.0 }, 10.0, -1e-12, 1e-4 },   // like s^3
-    { { 0.0, 0.0, 1.0, -1.0 }, 10.0, -1e-300, 1.0 },   // opens like s^2, comes back at 1
+    { { 0.0, 0.0, 1.0 }, 10.0, -1e-13, never },       // opens like s^2 from zero, guarded below
+    { { 0.0, 0.0, 0.0, 1.0 }, 10.0, -1e-13, never },  // like s^3, as a release does
+    { { 0.0, 0.0, -1.0 }, 10.0, -1e-12, 1e-6 },       // sinks like s^2
+    { { 0.0, 0.0, 0.0, -1.0 }, 10.0, -1e-12, 1e-4 },  // like s^3
+    { { 0.0, 0.0, 1.0, -1.0 }, 10.0, -1e-300, 1.0 },  // opens like s^2, comes back at 1
     { { 1.0, -1.0 }, 2.0, 0.0, 1.0 },
-    { { 1.0, -1.0 }, 0.999, 0.0, never },              // the horizon ends before
+    { { 1.0, -1.0 }, 0.999, 0.0, never },  // the horizon ends before
     { { 1.0, -1.0 }, 2.0, 0.25, 0.75 },
-    { { 0.25, -1.0, 1.0 }, 2.0, -1e-9, never },        // (s - 1/2)^2 touches zero and stays above the floor
-    { { 0.75, -2.0, 1.0 }, 2.0, 0.0, 0.5 },            // the first of 1/2 and 3/2
-    { { 0.0, 1.0 }, 2.0, 0.0, 0.0 },                   // on the floor already
-    { { -1.0, 1.0 }, 2.0, 0.0, 0.0 },                  // below it
+    { { 0.25, -1.0, 1.0 }, 2.0, -1e-9, never },  // (s - 1/2)^2 touches zero and stays above the floor
+    { { 0.75, -2.0, 1.0 }, 2.0, 0.0, 0.5 },      // the first of 1/2 and 3/2
+    { { 0.0, 1.0 }, 2.0, 0.0, 0.0 },             // on the floor already
+    { { -1.0, 1.0 }, 2.0, 0.0, 0.0 },            // below it
     { { 1.0 }, 2.0, 0.0, never },
   };
   for (std::size_t i = 0; i < sizeof(cases) / sizeof(*cases); ++i)

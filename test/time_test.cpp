@@ -26,7 +26,8 @@ TEST(Time, SecondsSplitIntoWholeAndFraction)
     double seconds;
     std::int64_t whole;
     double fraction;
-  } cases[] = { { 0.25, 0, 0.25 }, { 3.0, 3, 0.0 }, { 3.75, 3, 0.75 }, { -0.25, -1, 0.75 }, { -3.0, -3, 0.0 }, { -3.5, -4, 0.5 } };
+  } cases[] = { { 0.25, 0, 0.25 },   { 3.0, 3, 0.0 },   { 3.75, 3, 0.75 },
+                { -0.25, -1, 0.75 }, { -3.0, -3, 0.0 }, { -3.5, -4, 0.5 } };
   for (const auto& c : cases)
   {
     const Time time = Time::fromSeconds(c.seconds);
@@ -50,7 +51,8 @@ TEST(Time, SpansAddAndSubtract)
 
 TEST(Time, FractionStaysBelowOne)
 {
-  // The largest fraction there is, moved by spans that round up to a whole second, and zero by one too small to be seen below 1.
+  // The largest fraction there is, moved by spans that round up to a whole second, and zero by one too small to be seen
+  // below 1.
   const Time last = Time::fromSeconds(1.0 - half_eps);
   for (const double span : { half_eps, half_eps / 2.0, 1.0 - half_eps, half_eps / 8.0, -half_eps })
     for (const Time& time : { last + span, Time() + span, Time() + -span })
@@ -88,7 +90,8 @@ TEST(Time, OriginMovedByWholeSecondsChangesNoBit)
 
 TEST(Time, NanosecondsRoundTrip)
 {
-  for (const std::int64_t second : { std::int64_t(0), std::int64_t(-5), std::int64_t(1000000), std::int64_t(1700000000), std::int64_t(9223372035) })
+  for (const std::int64_t second :
+       { std::int64_t(0), std::int64_t(-5), std::int64_t(1000000), std::int64_t(1700000000), std::int64_t(9223372035) })
     for (const std::int64_t rest : { 0, 1, 2, 499999999, 500000000, 999999998, 999999999 })
     {
       const std::int64_t nanoseconds = second * 1000000000 + rest;
@@ -125,8 +128,10 @@ TEST(Time, InfinityIsLaterThanEverything)
 
 TEST(Time, ComparisonsAgree)
 {
-  const Time ascending[] = { Time::fromSeconds(-1.5), Time::fromSeconds(-1.0), Time(), Time() + half_eps, Time::fromSeconds(0.5),
-                             Time::fromSeconds(1.0), Time::fromSeconds(1.0) + 0.1, Time::infinity() };
+  const Time ascending[] = {
+    Time::fromSeconds(-1.5), Time::fromSeconds(-1.0),      Time(),          Time() + half_eps, Time::fromSeconds(0.5),
+    Time::fromSeconds(1.0),  Time::fromSeconds(1.0) + 0.1, Time::infinity()
+  };
   const int count = sizeof(ascending) / sizeof(*ascending);
   for (int i = 0; i < count; ++i)
     for (int j = 0; j < count; ++j)

@@ -10,12 +10,12 @@ namespace block_world
 {
 namespace
 {
-constexpr double tolerance = 1e-6;
+constexpr double tolerance = 1e-6, closed = 1e-13;
 
 std::vector<Touch> touchesOf(const Body& a, const Body& b)
 {
   std::vector<Touch> touches;
-  TouchFinder().find(a, memberAt(a, 0), b, memberAt(b, 1), tolerance, touches);
+  TouchFinder().find(a, memberAt(a, 0), b, memberAt(b, 1), tolerance, touches, closed);
   return touches;
 }
 
@@ -93,7 +93,8 @@ TEST(TouchFinder, FlatOnFlat)
 TEST(TouchFinder, VertexOnFace)
 {
   const double half_diagonal = std::sqrt(0.5);
-  const Body lower = boxAt(2.0, 1.0, Vec2(0.0, 0.0)), tip = boxAt(1.0, 1.0, Vec2(0.25, 0.5 + half_diagonal), Vec2::Zero(), pi / 4.0);
+  const Body lower = boxAt(2.0, 1.0, Vec2(0.0, 0.0)),
+             tip = boxAt(1.0, 1.0, Vec2(0.25, 0.5 + half_diagonal), Vec2::Zero(), pi / 4.0);
   const std::vector<Touch> touches = touchesOf(lower, tip);
   ASSERT_EQ(touches.size(), 1u);
   const Touch& t = touches.front();
@@ -114,8 +115,8 @@ TEST(TouchFinder, ShellAndExtentEndAtHalfTheTolerance)
   {
     double x, height;
     std::size_t count;
-  } cases[] = { { 0.0, 0.4e-6, 1 },  { 0.0, 0.6e-6, 0 },         { 0.0, -0.4e-6, 1 },        { 0.0, -3e-6, 1 },
-                { 1.0 + 0.4e-6, 0.0, 1 }, { 1.0 + 0.8e-6, 0.0, 0 } };
+  } cases[] = { { 0.0, 0.4e-6, 1 }, { 0.0, 0.6e-6, 0 },       { 0.0, -0.4e-6, 1 },
+                { 0.0, -3e-6, 1 },  { 1.0 + 0.4e-6, 0.0, 1 }, { 1.0 + 0.8e-6, 0.0, 0 } };
   for (const auto& c : cases)
   {
     const Body lower = boxAt(2.0, 1.0, Vec2(0.0, 0.0));
@@ -146,7 +147,7 @@ TEST(TouchFinder, CornerOnCornerChoosesByTheVelocity)
     const Body first = boxAt(1.0, 1.0, Vec2::Zero()), second = boxAt(1.0, 1.0, Vec2(1.0, 1.0), c.velocity);
     std::vector<Touch> touches;
     TouchFinder finder;
-    finder.find(first, memberAt(first, 0), second, memberAt(second, 1), tolerance, touches);
+    finder.find(first, memberAt(first, 0), second, memberAt(second, 1), tolerance, touches, closed);
     EXPECT_TRUE(finder.velocityDecided());
     ASSERT_EQ(touches.size(), 1u);
     const Touch& t = touches.front();
@@ -165,6 +166,25 @@ TEST(TouchFinder, TipOnTipMeetsAlongTheBisector)
   ASSERT_EQ(touches.size(), 1u);
   EXPECT_TRUE(touches.front().corner);
   expectNear(touches.front().normal, Vec2(touches.front().a == 1 ? 1.0 : -1.0, 0.0), 1e-15);
+}
+
+TEST(TouchFinder, CornerIsDecidedByTheLargerGapFirst)
+{
+  // Corners that hook by 1e-8 one way or the other: the face that still separates the squares counts, whatever the
+  // velocity.
+  for (const Vec2& hook : { Vec2(0.0, -1e-8), Vec2(-1e-8, 0.0) })
+    for (const Vec2& velocity : { Vec2(-1.0, -1.0), Vec2(-1.0, 1.0), Vec2(1.0, -1.0) })
+    {
+      const Body first = boxAt(1.0, 1.0, Vec2::Zero()), second = boxAt(1.0, 1.0, Vec2(1.0, 1.0) + hook, velocity);
+      std::vector<Touch> touches;
+      TouchFinder finder;
+      finder.find(first, memberAt(first, 0), second, memberAt(second, 1), tolerance, touches, closed);
+      EXPECT_FALSE(finder.velocityDecided());
+      ASSERT_EQ(touches.size(), 1u);
+      const Touch& t = touches.front();
+      EXPECT_FALSE(t.corner);
+      expectNear(t.a == 1 ? t.normal : Vec2(-t.normal), hook.x() == 0.0 ? Vec2(1.0, 0.0) : Vec2(0.0, 1.0), 1e-15);
+    }
 }
 
 TEST(TouchFinder, ApartIsNoTouchAndNoChoice)
@@ -195,8 +215,8 @@ TEST(TouchFinder, OrderOfTheBodiesDoesNotMatter)
     const Body b = boxAt(1.0, 1.0, turn.rotate(Vec2(1.0, shift)), random.vector(1.0), angle);
     std::vector<Touch> straight, swapped;
     const Member member_a = memberAt(a, 0), member_b = memberAt(b, 1);
-    TouchFinder().find(a, member_a, b, member_b, tolerance, straight);
-    TouchFinder().find(b, member_b, a, member_a, tolerance, swapped);
+    TouchFinder().find(a, member_a, b, member_b, tolerance, straight, closed);
+    TouchFinder().find(b, member_b, a, member_a, tolerance, swapped, closed);
     ASSERT_EQ(straight.size(), swapped.size()) << i;
     ASSERT_EQ(straight.size(), shift == 1.0 ? 1u : 2u) << i;
     Vec2 normal = Vec2::Zero();
@@ -243,8 +263,10 @@ TEST(Touch, RatesAreTheDerivativesOfTheGap)
     const Vec2 arm = random.vector(1.0), normal = Vec2(random.in(0.1, 1.0), random.in(-1.0, 1.0)).normalized();
     const Touch touch = touchBetween(a, b, arm, normal);
     const auto gap = [&](double s) {
-      const Frame turn_a(Vec2::Zero(), s * (a.omega + 0.5 * s * a.alpha)), turn_b(Vec2::Zero(), s * (b.omega + 0.5 * s * b.alpha));
-      const Vec2 between = a.frame.position - b.frame.position + s * (a.velocity - b.velocity + 0.5 * s * (a.acceleration - b.acceleration));
+      const Frame turn_a(Vec2::Zero(), s * (a.omega + 0.5 * s * a.alpha)),
+          turn_b(Vec2::Zero(), s * (b.omega + 0.5 * s * b.alpha));
+      const Vec2 between = a.frame.position - b.frame.position +
+                           s * (a.velocity - b.velocity + 0.5 * s * (a.acceleration - b.acceleration));
       return turn_b.rotate(normal).dot(between + turn_a.rotate(arm));
     };
     // Central differences: h^2 / 12 of derivatives below 200, and four times a rounding of 1e-15 / h^2.

@@ -12,8 +12,9 @@ namespace
 /// A tall block of 1 x 3 and 2 kg adrift, a square beside it and a fixed one above.
 Scene makeThree(double gravity = 0.0)
 {
-  return makeScene(gravity, 1.0, { withMass(makeBox("tall", { 1, 3 }, { 0, 0 }), 2.0), makeBox("square", { 1, 1 }, { 3, 0 }),
-                                   fixedOne(makeBox("fixed", { 1, 1 }, { 0, 4 })) });
+  return makeScene(gravity, 1.0,
+                   { withMass(makeBox("tall", { 1, 3 }, { 0, 0 }), 2.0), makeBox("square", { 1, 1 }, { 3, 0 }),
+                     fixedOne(makeBox("fixed", { 1, 1 }, { 0, 4 })) });
 }
 
 SpringCommand makePull(const std::string& body, const Vector2d& attach, const Vector2d& anchor, double stiffness)
@@ -90,7 +91,8 @@ TEST(Commands, SpringPicksTheNearestPoint)
   EXPECT_NEAR((world.springs()[0].from - Vector2d(2.5, 0.2)).norm(), 0.0, 1e-15);
   EXPECT_TRUE(world.springs()[0].mouse);
   // The fixed block is nearest to this anchor but cannot be pulled.
-  EXPECT_EQ(std::get<SpringCommand>(world.apply(makePull("", Vector2d::Zero(), Vector2d(0, 3.4), 3.0)).command).body, "tall");
+  EXPECT_EQ(std::get<SpringCommand>(world.apply(makePull("", Vector2d::Zero(), Vector2d(0, 3.4), 3.0)).command).body,
+            "tall");
   EXPECT_EQ(world.springs().size(), 2u);
   EXPECT_TRUE(world.apply(makeRelease("tall")).ok);
   EXPECT_EQ(world.springs().size(), 1u);
@@ -147,8 +149,10 @@ TEST(Commands, SetGravityMassAndDamping)
 
 TEST(Commands, SetThrustAndElasticity)
 {
-  Scene scene = makeScene(0.0, 1.0, { moving(makeBox("a", { 1, 1 }, { 0, 0.5 + 1.0 }), { 0, -1 }),
-                                      moving(makeBox("b", { 1, 1 }, { 3, 0.5 + 1.0 }), { 0, -1 }) }, onFloor());
+  Scene scene = makeScene(0.0, 1.0,
+                          { moving(makeBox("a", { 1, 1 }, { 0, 0.5 + 1.0 }), { 0, -1 }),
+                            moving(makeBox("b", { 1, 1 }, { 3, 0.5 + 1.0 }), { 0, -1 }) },
+                          onFloor());
   scene.blocks[1].elasticity = 0.75;  // its own stays; a pair uses the smaller one
   World world(scene);
   SetCommand set;
@@ -288,8 +292,10 @@ TEST(Commands, RefusedOnesChangeNothing)
   const std::uint64_t hash = world.stateHash();
   for (const Refusal& refusal : makeRefusals())
   {
-    const Applied applied = world.apply(refusal.command);
+    const Applied answer = world.check(refusal.command), applied = world.apply(refusal.command);
     EXPECT_FALSE(applied.ok) << refusal.what;
+    EXPECT_EQ(answer.ok, applied.ok) << refusal.what;
+    EXPECT_EQ(answer.reason, applied.reason) << refusal.what;
     EXPECT_NE(applied.reason.find(refusal.reason), std::string::npos) << refusal.what << ": " << applied.reason;
     EXPECT_EQ(world.stateHash(), hash) << refusal.what;
     EXPECT_EQ(writeScene(world.scene()), writeScene(untouched.scene())) << refusal.what;
@@ -298,6 +304,28 @@ TEST(Commands, RefusedOnesChangeNothing)
   run(untouched, 5.0);
   EXPECT_EQ(world.stateHash(), untouched.stateHash());
   EXPECT_EQ(world.energy().balance_error, untouched.energy().balance_error);
+}
+
+TEST(Commands, CheckDoesNothing)
+{
+  World world(makeThree(9.8));
+  run(world, 0.2);
+  const std::uint64_t hash = world.stateHash();
+  const std::vector<Command> commands{ ThrustCommand{ "tall", std::vector<double>(6, 0.5), 1.0 },
+                                       makePull("", { 0, 0 }, { 2, 0 }, 1.0),
+                                       WrenchCommand{ "tall", { 1, 0 }, 0.0 },
+                                       SetStateCommand{ "tall", { 9, 9 }, 0, { 0, 0 }, 0 },
+                                       SpawnCommand{ makeBox("new", { 1, 1 }, { 9, 0 }) },
+                                       DeleteCommand{ "tall" },
+                                       ResetCommand() };
+  for (const Command& command : commands)
+  {
+    EXPECT_TRUE(world.check(command).ok) << command.index();
+    EXPECT_EQ(world.stateHash(), hash) << command.index();
+  }
+  EXPECT_EQ(world.bodyCount(), 3);
+  EXPECT_TRUE(world.springs().empty());
+  EXPECT_EQ(std::get<SpringCommand>(world.check(commands[1]).command).body, "square");
 }
 
 TEST(Commands, ResetBringsBackTheScene)

@@ -16,8 +16,9 @@ TEST(Detection, ThinFastRods)
   for (int i = 0; i < 200; ++i)
   {
     const double speed = 30.0 + 40.0 * share(random), omega = (20.0 + 60.0 * share(random)) * (i % 2 ? 1.0 : -1.0);
-    World world(makeScene(0.0, 1.0, { moving(makeBox("rod", { 1, 0.02 }, { -1, 0 }, 6.0 * share(random)), { speed, 0 }, omega),
-                                      fixedOne(makeBox("wall", { 0.01, 20 }, { 0.005, 0 })) }));
+    World world(makeScene(0.0, 1.0,
+                          { moving(makeBox("rod", { 1, 0.02 }, { -1, 0 }, 6.0 * share(random)), { speed, 0 }, omega),
+                            fixedOne(makeBox("wall", { 0.01, 20 }, { 0.005, 0 })) }));
     const double energy = world.energy().total;
     run(world, 0.1);
     EXPECT_LT(world.state(0).position.x(), 0.0) << i;
@@ -35,9 +36,10 @@ TEST(Detection, FastBlocksAtAThinOne)
   for (int i = 0; i < 200; ++i)
   {
     const double speed = 30.0 + 40.0 * share(random), height = 0.9 * (share(random) - 0.5);
-    World world(makeScene(0.0, 1.0, { withMass(moving(makeBox("bullet", { 0.1, 0.1 }, { -1, height }, 6.0 * share(random)),
-                                                      { speed, 0 }), 0.01),
-                                      withMass(makeBox("thin", { 0.02, 1 }, { 0, 0 }), 0.02) }));
+    World world(makeScene(
+        0.0, 1.0,
+        { withMass(moving(makeBox("bullet", { 0.1, 0.1 }, { -1, height }, 6.0 * share(random)), { speed, 0 }), 0.01),
+          withMass(makeBox("thin", { 0.02, 1 }, { 0, 0 }), 0.02) }));
     run(world, 1.5 / speed);
     EXPECT_GE(world.statistics().impacts, 1) << i;
     EXPECT_GT(world.state(1).velocity.x(), 0.0) << i;
@@ -60,8 +62,8 @@ TEST(Detection, Spinner)
   expectExact(world, 1e-9);
 }
 
-// D7: a corner passes the floor at c. It comes in at w = sqrt(2 |c| omega^2 rho) = 2.4e-4 m/s at most, its arm upright, so
-// the block leaves at 2 w; at c > 0 nothing happens.
+// D7: a corner passes the floor at c. It comes in at w = sqrt(2 |c| omega^2 rho) = 2.4e-4 m/s at most, its arm upright,
+// so the block leaves at 2 w; at c > 0 nothing happens.
 TEST(Detection, Grazing)
 {
   for (const double tolerance : { 1e-6, 1e-10 })
@@ -69,7 +71,8 @@ TEST(Detection, Grazing)
     {
       SCOPED_TRACE(c);
       const double radius = std::hypot(0.25, 0.15);
-      Scene scene = makeScene(0.0, 1.0, { moving(makeBox("a", { 0.5, 0.3 }, { 0, radius + c }), { 1, 0 }, 10.0) }, onFloor());
+      Scene scene =
+          makeScene(0.0, 1.0, { moving(makeBox("a", { 0.5, 0.3 }, { 0, radius + c }), { 1, 0 }, 10.0) }, onFloor());
       scene.tolerance = tolerance;
       World world(scene);
       const BodyState after = stateAt(world, 2.0);

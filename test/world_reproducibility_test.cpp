@@ -33,8 +33,9 @@ Scene makeBusy()
   return scene;
 }
 
-const std::vector<std::string> all_shipped{ "contact_forces", "cradle",  "drop",  "ladder",      "pi_collisions", "pile",
-                                            "six_blocks",     "springs", "stack", "table_slide", "thrusters" };
+const std::vector<std::string> all_shipped{ "contact_forces", "cradle",      "drop",       "ladder",
+                                            "pi_collisions",  "pile",        "six_blocks", "springs",
+                                            "stack",          "table_slide", "thrusters" };
 
 std::vector<Scene> makeScenes()
 {
@@ -150,13 +151,17 @@ void expectMirrored(const Scene& scene, double seconds, double error)
 TEST(Mirror, Impacts)
 {
   expectMirrored(shipped("cradle"), 1.0, 1e-14);
-  expectMirrored(makeScene(9.8, 0.8, { moving(makeBox("a", { 0.5, 0.3 }, { 0, 1 }, 0.2), { 0.25, 0 }) }, onFloor()), 0.6,
-                 1e-13);
-  expectMirrored(makeScene(0.0, 1.0, { moving(makeBox("top", { 2, 0.5 }, { 0.2, 1.25 }), { 0, -1 }),
-                                       makeBox("left", { 0.6, 1 }, { -0.5, 0.5 }), makeBox("right", { 0.6, 1 }, { 0.5, 0.5 }) },
-                           onFloor()), 0.1, 1e-14);
-  expectMirrored(makeScene(0.0, 0.5, { moving(makeBox("a", { 0.5, 0.5 }, { -1, 5 }, pi / 4), { 1, 0 }),
-                                       moving(makeBox("b", { 0.5, 0.5 }, { 1, 5.1 }, pi / 4), { -1, 0 }, 0.5) }), 2.0, 1e-13);
+  expectMirrored(makeScene(9.8, 0.8, { moving(makeBox("a", { 0.5, 0.3 }, { 0, 1 }, 0.2), { 0.25, 0 }) }, onFloor()),
+                 0.6, 1e-13);
+  expectMirrored(makeScene(0.0, 1.0,
+                           { moving(makeBox("top", { 2, 0.5 }, { 0.2, 1.25 }), { 0, -1 }),
+                             makeBox("left", { 0.6, 1 }, { -0.5, 0.5 }), makeBox("right", { 0.6, 1 }, { 0.5, 0.5 }) },
+                           onFloor()),
+                 0.1, 1e-14);
+  expectMirrored(makeScene(0.0, 0.5,
+                           { moving(makeBox("a", { 0.5, 0.5 }, { -1, 5 }, pi / 4), { 1, 0 }),
+                             moving(makeBox("b", { 0.5, 0.5 }, { 1, 5.1 }, pi / 4), { -1, 0 }, 0.5) }),
+                 2.0, 1e-13);
 }
 
 TEST(Mirror, Rest)

@@ -46,7 +46,8 @@ inline Block fixedOne(Block block)
   return block;
 }
 
-inline Scene makeScene(double gravity, double elasticity, const std::vector<Block>& blocks, const Walls& walls = Walls())
+inline Scene makeScene(double gravity, double elasticity, const std::vector<Block>& blocks,
+                       const Walls& walls = Walls())
 {
   Scene scene;
   scene.gravity = gravity;

@@ -265,7 +265,7 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
   if (best > 0.5 * tolerance_)
     return face(pair, pair.face_of_a, pair.face, pair.face_of_a ? a : b, pair.face_of_a ? b : a, horizon).span;
 
-  // In the shell several faces may tie; the bodies stay apart as long as one of them separates them.
+  // In the shell several faces may separate the bodies; they stay apart as long as one of them does.
   Certificate longest{ -1.0, false };
   for (int side = 0; side < 2; ++side)
   {
@@ -274,7 +274,7 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
       continue;
     for (std::size_t i = 0; i < f.body->shape.faces.size(); ++i)
     {
-      if (faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame) < best - tolerance_)
+      if (faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame) < std::min(best, 0.0) - 2.0 * guard_)
         continue;
       face_local_.body = vertex_local_.body = nullptr;
       const Certificate one = face(pair, side == 0, static_cast<int>(i), f, v, horizon);

@@ -416,17 +416,21 @@ void World::Engine::launch(const Time& time, const std::vector<int>& members)
   for (int body : island.bodies)
     cache_[body].time = Time::infinity();
 
-  // An island in equilibrium whose velocities are rounding sleeps: constant arcs without an end.
+  // An island in equilibrium whose velocities are rounding sleeps: constant arcs without an end. What rounding leaves of an acceleration is
+  // proportional to the forces that cancel in it.
   if (!island.rests.empty())
   {
-    const double a = group_.accelerationScale();
+    double a = group_.accelerationScale();
+    for (const Rest& rest : island.rests)
+      for (int body : { rest.touch.a, rest.touch.b })
+        a = std::max(a, std::abs(rest.force[0]) * bodies[body].inverse_mass);
     bool still = true;
     for (int body : island.bodies)
     {
       const Arc& arc = bodies[body].arc;
       const double radius = bodies[body].shape.radius;
       const double speed = std::hypot(arc.x[1], arc.y[1]) + radius * std::abs(arc.angle[1]);
-      const double acceleration = std::hypot(arc.x[2], arc.y[2]) + radius * std::abs(arc.angle[2]);
+      const double acceleration = 2.0 * (std::hypot(arc.x[2], arc.y[2]) + radius * std::abs(arc.angle[2]));
       still = still && speed <= 1e-12 * std::sqrt(a * radius) && acceleration <= 1e-12 * a;
     }
     if (still)

@@ -91,8 +91,8 @@ void Replay::strike(RowRange rows)
     strikeGroup(group);
 }
 
-// Where a slow bounce is replaced by its limit, touches that open slowly are held as well, and what is listed stands for
-// the applied forces during the hops left out: it may pull, by no more than the speed of capture of all that moves.
+// Where a slow bounce is replaced by its limit, touches that open slowly are held as well, and what is listed stands
+// for the applied forces during the hops left out: it may pull, by no more than the speed of capture of all that moves.
 void Replay::checkSigns(const std::vector<const ContactRow*>& events)
 {
   const bool captures = std::any_of(events.begin(), events.end(), [&](const ContactRow* row) {

@@ -17,7 +17,7 @@ Replay::Checks::Checks(Report& report)
   , angular(report.check("replay.angular_momentum", "I domega is the sum of their moments (9, 10), in units of its "
                                                     "limit"))
   , sign(report.check("contact.sign", "no contact pulls beyond what a capture stands for: force or impulse below "
-                                       "zero"))
+                                      "zero"))
   , unit(report.check("contact.unit_normal", "length of the normal less 1"))
   , normal(report.check("contact.normal", "the normal points from b to a and parts them, m"))
   , point(report.check("contact.point", "distance of the contact point from the farther boundary, m"))

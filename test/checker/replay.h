@@ -109,16 +109,16 @@ private:
   Account* account_ = nullptr;
   double begin_ = 0.0, end_ = 0.0;
   std::vector<State> states_;
-  std::vector<Load> held_;            ///< contact forces at the interval's first sample
+  std::vector<Load> held_;                       ///< contact forces at the interval's first sample
   std::vector<std::pair<int, int>> rest_pairs_;  ///< that rest at either sample or begin to in between; sorted
-  std::vector<int> island_parent_;    ///< clusters joined by resting contacts
-  std::vector<char> resting_, lost_;  ///< per cluster; lost: its state is unknown after an event
-  std::vector<char> eventful_;        ///< per island root
-  std::vector<double> clock_;         ///< per cluster
-  std::vector<Vec2> pushed_;          ///< per body: sums of |impulse| and of |impulse| x arm
-  std::vector<Load> kick_;            ///< per body: impulse and its moment
-  std::vector<double> leaning_;       ///< per body: sum of the contact forces at both samples
-  std::vector<char> moved_;           ///< per body: a rest began or ended near it, which may shift it by the tolerance
+  std::vector<int> island_parent_;               ///< clusters joined by resting contacts
+  std::vector<char> resting_, lost_;             ///< per cluster; lost: its state is unknown after an event
+  std::vector<char> eventful_;                   ///< per island root
+  std::vector<double> clock_;                    ///< per cluster
+  std::vector<Vec2> pushed_;                     ///< per body: sums of |impulse| and of |impulse| x arm
+  std::vector<Load> kick_;                       ///< per body: impulse and its moment
+  std::vector<double> leaning_;                  ///< per body: sum of the contact forces at both samples
+  std::vector<char> moved_;  ///< per body: a rest began or ended near it, which may shift it by the tolerance
 };
 
 }  // namespace checker
