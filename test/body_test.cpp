@@ -69,7 +69,7 @@ TEST(Body, EveryDegreeAgainstPowers)
       EXPECT_NEAR(now.angle, 3.0 * value, error);
       EXPECT_NEAR(now.omega, 3.0 * rate, error);
       EXPECT_NEAR(now.alpha, 3.0 * second, error);
-      const BodyState state = body.stateAt(time);
+      const MotionState state = body.stateAt(time);
       expectNear(state.position, now.position, error);
       expectNear(state.velocity, now.velocity, error);
       EXPECT_NEAR(state.angle, now.angle, error);

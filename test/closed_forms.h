@@ -13,7 +13,7 @@
 
 namespace closed_form
 {
-using block_world::BodyState;
+using block_world::MotionState;
 using Eigen::Vector2d;
 
 inline double cross(const Vector2d& a, const Vector2d& b)
@@ -44,12 +44,12 @@ inline double phi2(double z)
 }
 
 /// m v' = -k v - m g and I w' = -k r w: speeds decay exponentially towards v = -g m/k and w = 0.
-inline BodyState dampedFlight(const BodyState& from, double mass, double inertia, double damping, double ratio,
+inline MotionState dampedFlight(const MotionState& from, double mass, double inertia, double damping, double ratio,
                               double gravity, double t)
 {
   const double z = damping / mass * t, turn = damping * ratio / inertia * t;
   const Vector2d g(0.0, -gravity);
-  BodyState to;
+  MotionState to;
   to.position = from.position + t * phi1(z) * from.velocity + t * t * phi2(z) * g;
   to.velocity = std::exp(-z) * from.velocity + t * phi1(z) * g;
   to.angle = from.angle + t * phi1(turn) * from.omega;
@@ -96,13 +96,13 @@ struct BouncingDrop
 
 struct Struck
 {
-  BodyState a, b;
+  MotionState a, b;
   double impulse = 0.0;
 };
 
 /// Equation (11): one point of contact, normal n from b to a, j = -(1 + e) w / (1/ma + 1/mb + (ra x n)^2/Ia + (rb x
 /// n)^2/Ib), with w the normal velocity before.
-inline Struck strike(const BodyState& a, double mass_a, double inertia_a, const BodyState& b, double mass_b,
+inline Struck strike(const MotionState& a, double mass_a, double inertia_a, const MotionState& b, double mass_b,
                      double inertia_b, const Vector2d& point, const Vector2d& normal, double elasticity)
 {
   const Vector2d arm_a = point - a.position, arm_b = point - b.position;
@@ -272,12 +272,12 @@ struct SpringBody
     return out;
   }
 
-  BodyState after(const BodyState& from, double t) const
+  MotionState after(const MotionState& from, double t) const
   {
     Vector6 y;
     y << from.position, from.angle, from.velocity, from.omega;
     y = integrate<Vector6>([this](const Vector6& at) { return slope(at); }, y, t, static_cast<int>(1e4 * t) + 1);
-    BodyState to;
+    MotionState to;
     to.position = y.head<2>();
     to.angle = y(2);
     to.velocity = y.segment<2>(3);

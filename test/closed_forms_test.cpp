@@ -21,16 +21,16 @@ TEST(ClosedForms, PhiFunctionsJoinTheirSeries)
 
 TEST(ClosedForms, DampedFlight)
 {
-  BodyState from;
+  MotionState from;
   from.position = Vector2d(1.0, 2.0);
   from.velocity = Vector2d(3.0, 4.0);
   from.omega = 5.0;
-  const BodyState free = dampedFlight(from, 2.0, 1.0, 0.0, 0.1, 9.8, 2.0);
+  const MotionState free = dampedFlight(from, 2.0, 1.0, 0.0, 0.1, 9.8, 2.0);
   EXPECT_DOUBLE_EQ(free.position.x(), 7.0);
   EXPECT_DOUBLE_EQ(free.position.y(), 10.0 - 19.6);
   EXPECT_DOUBLE_EQ(free.velocity.y(), 4.0 - 19.6);
   EXPECT_DOUBLE_EQ(free.angle, 10.0);
-  const BodyState damped = dampedFlight(from, 2.0, 0.5, 4.0, 0.25, 9.8, 100.0);  // all decayed
+  const MotionState damped = dampedFlight(from, 2.0, 0.5, 4.0, 0.25, 9.8, 100.0);  // all decayed
   EXPECT_NEAR(damped.velocity.y(), -9.8 * 2.0 / 4.0, 1e-14);
   EXPECT_NEAR(damped.position.x(), 1.0 + 3.0 * 2.0 / 4.0, 1e-14);
   EXPECT_NEAR(damped.angle, 5.0 * 0.5 / (4.0 * 0.25), 1e-14);
@@ -50,19 +50,19 @@ TEST(ClosedForms, Drops)
 
 TEST(ClosedForms, ImpactsKeepWhatTheyMust)
 {
-  BodyState a, b;
+  MotionState a, b;
   a.velocity = Vector2d(1.0, 0.2);
   a.omega = 0.7;
   b.position = Vector2d(1.0, 0.3);
   const Vector2d point(0.6, 0.4), normal(-0.6, 0.8);
   const Struck after = strike(a, 1.0, 0.2, b, 2.0, 0.5, point, normal, 0.5);
-  const auto speed = [&](const BodyState& p, const BodyState& q) {
+  const auto speed = [&](const MotionState& p, const MotionState& q) {
     return normal.dot(p.velocity - q.velocity) + cross(point - p.position, normal) * p.omega -
            cross(point - q.position, normal) * q.omega;
   };
   EXPECT_NEAR(speed(after.a, after.b), -0.5 * speed(a, b), 1e-15);
   EXPECT_NEAR((after.a.velocity + 2.0 * after.b.velocity - a.velocity).norm(), 0.0, 1e-15);
-  const auto spin = [](const BodyState& p, double mass, double inertia) {
+  const auto spin = [](const MotionState& p, double mass, double inertia) {
     return inertia * p.omega + mass * cross(p.position, p.velocity);
   };
   EXPECT_NEAR(spin(after.a, 1.0, 0.2) + spin(after.b, 2.0, 0.5), spin(a, 1.0, 0.2), 1e-15);
@@ -113,9 +113,9 @@ TEST(ClosedForms, SlidingFallSolvesItsEquation)
 TEST(ClosedForms, SpringBodyAgainstTheDampedOscillator)
 {
   const SpringBody body{ 2.0, 1.0, 0.0, Vector2d::Zero(), Vector2d::Zero(), 30.0, 0.0, 1.5 };
-  BodyState from;
+  MotionState from;
   from.position = Vector2d(0.7, -0.2);
-  const BodyState to = body.after(from, 3.0);
+  const MotionState to = body.after(from, 3.0);
   EXPECT_NEAR(to.position.x(), dampedOscillation(0.7, 2.0, 30.0, 1.5, 3.0), 1e-13);
   EXPECT_NEAR(to.position.y(), dampedOscillation(-0.2, 2.0, 30.0, 1.5, 3.0), 1e-13);
 }
@@ -123,9 +123,9 @@ TEST(ClosedForms, SpringBodyAgainstTheDampedOscillator)
 TEST(ClosedForms, SpringBodyKeepsItsEnergy)
 {
   const SpringBody body{ 2.0, 0.8, 3.0, Vector2d(0.3, -0.4), Vector2d(1.0, 2.0), 30.0, 0.75, 0.0 };
-  BodyState from;
+  MotionState from;
   from.omega = 1.0;
-  const auto energy = [&](const BodyState& s) {
+  const auto energy = [&](const MotionState& s) {
     const Vector2d arm(std::cos(s.angle) * 0.3 + std::sin(s.angle) * 0.4,
                        std::sin(s.angle) * 0.3 - std::cos(s.angle) * 0.4);
     const double stretch = (s.position + arm - body.anchor).norm() - body.rest;

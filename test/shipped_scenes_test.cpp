@@ -23,7 +23,7 @@ World makeWorld(const std::string& name)
   return World(load(name));
 }
 
-BodyState stateAt(World& world, const std::string& block, double seconds)
+MotionState stateAt(World& world, const std::string& block, double seconds)
 {
   world.advance(Time::fromSeconds(seconds));
   return world.state(world.find(block));
@@ -33,7 +33,7 @@ BodyState stateAt(World& world, const std::string& block, double seconds)
 double forceOn(const World& world, const std::string& wall)
 {
   double sum = 0.0;
-  for (const Contact& contact : world.restingContacts())
+  for (const ContactEvent& contact : world.restingContacts())
     if (world.name(contact.a) == wall || world.name(contact.b) == wall)
       sum += contact.impulse;
   return sum;
@@ -82,12 +82,12 @@ TEST(ShippedScenes, PileRestsOnItsForces)
   // Without friction the blocks still slide on one another a little, so the forces are the weight plus the rate of the momentum, here a central
   // difference over h: its error is h^2/24 of the third derivative, far below the 1e-3 N asked for.
   const double h = 1e-4;
-  const Energy before = world.energy();
+  const EnergyAccount before = world.energy();
   world.advance(Time::fromSeconds(60.0 + h / 2));
   const double bottom = forceOn(world, "wall_bottom");
   const double sides = forceOn(world, "wall_left") - forceOn(world, "wall_right");
   world.advance(Time::fromSeconds(60.0 + h));
-  const Energy after = world.energy();
+  const EnergyAccount after = world.energy();
   ASSERT_TRUE(world.takeContacts().empty());
   EXPECT_NEAR(bottom, 980.0 + (after.momentum_y - before.momentum_y) / h, 1e-3);
   EXPECT_NEAR(sides, (after.momentum_x - before.momentum_x) / h, 1e-3);
@@ -98,7 +98,7 @@ TEST(ShippedScenes, PileRestsOnItsForces)
 TEST(ShippedScenes, DropComesToRest)
 {
   World world = makeWorld("drop");
-  const BodyState box = stateAt(world, "box", 4.0);
+  const MotionState box = stateAt(world, "box", 4.0);
   EXPECT_NEAR(box.position.x(), 2.0, 1e-13);
   EXPECT_NEAR(box.position.y(), 0.125, 1e-13);
   EXPECT_NEAR(box.angle, 0.0, 1e-13);
@@ -112,7 +112,7 @@ TEST(ShippedScenes, StackStandsAndCarries)
   World world = makeWorld("stack");
   world.advance(Time::fromSeconds(100.0));
   std::map<int, double> force;  // by the height of the contact
-  for (const Contact& contact : world.restingContacts())
+  for (const ContactEvent& contact : world.restingContacts())
     force[static_cast<int>(std::lround(contact.point.y()))] += contact.impulse;
   ASSERT_EQ(force.size(), 10u);
   for (int i = 1; i <= 10; ++i)
@@ -139,7 +139,7 @@ TEST(ShippedScenes, LadderLeavesTheWall)
   const double release = 0.430271335196;
   EXPECT_NEAR(stateAt(world, "ladder", release).omega, 2.201819890171, 1e-10);
   EXPECT_NEAR(stateAt(world, "ladder", release + 0.05).velocity.x(), 1.271221306297, 1e-11);
-  for (const Contact& contact : world.takeContacts())
+  for (const ContactEvent& contact : world.takeContacts())
     if (contact.kind == ContactKind::RestEnd)
     {
       EXPECT_NEAR(contact.time.seconds(), release, 1e-11);
@@ -163,7 +163,7 @@ TEST(ShippedScenes, PiByCollisions)
 TEST(ShippedScenes, TableSlide)
 {
   World world = makeWorld("table_slide");
-  const BodyState box = stateAt(world, "box", 1.5);
+  const MotionState box = stateAt(world, "box", 1.5);
   EXPECT_NEAR(box.position.x(), 1.053391145637, 1e-8);
   EXPECT_NEAR(box.position.y(), 0.223733130632, 1e-8);
   EXPECT_NEAR(box.angle, -5.893713751953, 1e-8);
@@ -173,7 +173,7 @@ TEST(ShippedScenes, TableSlide)
 TEST(ShippedScenes, Thrusters)
 {
   World world = makeWorld("thrusters");
-  const BodyState lift = stateAt(world, "lift", 5.0);
+  const MotionState lift = stateAt(world, "lift", 5.0);
   EXPECT_NEAR(lift.position.y(), 0.75, 1e-13);
   EXPECT_NEAR(lift.velocity.norm(), 0.0, 1e-13);
   EXPECT_NEAR(stateAt(world, "spin", 5.0).omega, 1.296, 1e-13);

@@ -201,7 +201,7 @@ TEST(Commands, SpawnAndDelete)
 {
   World world(makeThree(9.8));
   run(world, 0.5);
-  const BodyState square = world.state(1);
+  const MotionState square = world.state(1);
   ASSERT_TRUE(world.apply(SpawnCommand{ moving(makeBox("new", { 1, 1 }, { 6, 0 }), { 1, 0 }) }).ok);
   ASSERT_EQ(world.bodyCount(), 4);
   EXPECT_EQ(world.find("new"), 3);

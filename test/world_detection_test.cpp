@@ -75,7 +75,7 @@ TEST(Detection, Grazing)
           makeScene(0.0, 1.0, { moving(makeBox("a", { 0.5, 0.3 }, { 0, radius + c }), { 1, 0 }, 10.0) }, onFloor());
       scene.tolerance = tolerance;
       World world(scene);
-      const BodyState after = stateAt(world, 2.0);
+      const MotionState after = stateAt(world, 2.0);
       EXPECT_NEAR(after.velocity.x(), 1.0, 1e-15);
       EXPECT_GE(after.velocity.y(), 0.0);
       EXPECT_LE(after.velocity.y(), c > 0.0 ? 0.0 : 1.0001 * 2.0 * std::sqrt(2.0 * 1e-9 * 100.0 * radius));
@@ -105,7 +105,7 @@ TEST(Detection, SlotWithoutRoom)
   walls.left = -0.5;
   walls.right = 0.5;
   World world(makeScene(0.0, 1.0, { moving(makeBox("a", { 1, 1 }, { 0, 0 }), { 1, 0.25 }) }, walls));
-  const BodyState after = stateAt(world, 1.0);
+  const MotionState after = stateAt(world, 1.0);
   EXPECT_NEAR(after.velocity.x(), 0.0, 1e-15);
   EXPECT_NEAR(after.velocity.y(), 0.25, 1e-15);
   EXPECT_NEAR(after.position.x(), 0.0, 1e-12);

@@ -137,7 +137,7 @@ void expectMirrored(const Scene& scene, double seconds, double error)
   run(image, seconds);
   for (int i = 0; i < world.bodyCount(); ++i)
   {
-    BodyState wanted = world.state(i);
+    MotionState wanted = world.state(i);
     wanted.position.x() *= -1.0;
     wanted.angle *= -1.0;
     wanted.velocity.x() *= -1.0;

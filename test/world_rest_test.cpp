@@ -24,7 +24,7 @@ TEST(Drop, ComesToRest)
     World world(scene);
     const closed_form::BouncingDrop drop{ 0.875, 9.8, e };
     const double end = drop.restTime() + 1.0, left_out = 2.0 * captureSpeed(scene) / (9.8 * (1.0 - e));
-    BodyState rest;
+    MotionState rest;
     rest.position = Vector2d(0.5 * end, 0.125);
     rest.velocity = Vector2d(0.5, 0.0);
     expectState(stateAt(world, end), rest, 1e-12);
@@ -50,7 +50,7 @@ TEST(Drop, CountsItsBounces)
       const closed_form::BouncingDrop drop{ 0.875, 9.8, e };
       run(world, drop.restTime() + 1.0);
       int landings = 0;  // two corners each
-      for (const Contact& contact : world.takeContacts())
+      for (const ContactEvent& contact : world.takeContacts())
         landings += contact.kind == ContactKind::Impact;
       // The engine takes the speed from the height of the fall, the count from powers of e: one may fall on the limit.
       EXPECT_NEAR(landings / 2, drop.landingsFasterThan(captureSpeed(scene)), 1) << e << " " << tolerance;
@@ -63,7 +63,7 @@ TEST(Sliding, LadderLeavesTheWall)
   World world(shipped("ladder"));
   const closed_form::Ladder ladder{ 9.8, (1.0 + 0.05 * 0.05) / 6.0, pi / 3.0 };
   const double release = ladder.releaseTime();
-  const BodyState there = stateAt(world, release);
+  const MotionState there = stateAt(world, release);
   EXPECT_NEAR(there.omega, ladder.rate(ladder.releaseAngle()), 1e-10);
   EXPECT_NEAR(there.angle, -ladder.releaseAngle(), 1e-10);
   EXPECT_NEAR(stateAt(world, release + 0.1).velocity.x(), ladder.releaseSpeed(), 1e-10);
@@ -80,7 +80,7 @@ TEST(Sliding, RodFallsWithACornerOnTheFloor)
       makeScene(9.8, 0.0, { makeBox("rod", { 2, 0.1 }, { 0, distance * std::sin(fall.start) }, tilt) }, onFloor()));
   for (const double t : { 0.1, 0.2, 0.3 })
   {
-    const BodyState found = stateAt(world, t);
+    const MotionState found = stateAt(world, t);
     const double angle = fall.angleAt(t);
     EXPECT_NEAR(found.angle, angle - corner, 1e-9);
     EXPECT_NEAR(found.omega, -fall.rate(angle), 1e-9);
@@ -101,7 +101,7 @@ TEST(Sliding, RodOverACorner)
   World world(makeScene(
       9.8, 0.0, { makeBox("rod", { 2, 0.1 }, centre, tilt), fixedOne(makeBox("table", { 2, 1 }, { -1, -0.5 })) }));
   const double release = 0.434825390462010;
-  const BodyState there = stateAt(world, release);
+  const MotionState there = stateAt(world, release);
   EXPECT_NEAR(there.angle, -0.748950916706830, 1e-9);
   EXPECT_NEAR(there.omega, -1.762005361370255, 1e-9);
   EXPECT_NEAR(there.position.x(), 0.429994764153131, 1e-9);
@@ -113,7 +113,7 @@ TEST(Sliding, RodOverACorner)
 TEST(Sliding, OffATable)
 {
   World world(shipped("table_slide"));
-  const BodyState box = stateAt(world, 1.5, world.find("box"));
+  const MotionState box = stateAt(world, 1.5, world.find("box"));
   EXPECT_NEAR(box.position.x(), 1.053391145637, 1e-9);
   EXPECT_NEAR(box.position.y(), 0.223733130632, 1e-9);
   EXPECT_NEAR(box.angle, -5.893713751953, 1e-9);
@@ -254,7 +254,7 @@ TEST(Standing, OverhangingStack)
       Scene scene = makeScene(9.8, 0.3, blocks);
       scene.tolerance = 1e-9;
       World world(scene);
-      const BodyState top = stateAt(world, 60.0, n - 1);
+      const MotionState top = stateAt(world, 60.0, n - 1);
       if (margin > 0.0)
       {
         EXPECT_NEAR((top.position - blocks.back().position).norm(), 0.0, 1e-12) << n;
@@ -274,7 +274,7 @@ TEST(Pushed, IntoTheWall)
   Scene scene = makeScene(9.8, 0.5, { block }, walls);
   scene.inputs = { { Time(), ThrustCommand{ "a", { 1.0 }, 100.0 } } };
   World world(scene);
-  const BodyState rest = stateAt(world, 4.0);
+  const MotionState rest = stateAt(world, 4.0);
   EXPECT_NEAR(rest.position.x(), 1.75, 1e-12);
   EXPECT_NEAR(rest.position.y(), 0.25, 1e-12);
   EXPECT_NEAR(rest.angle, 0.0, 1e-12);

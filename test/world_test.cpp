@@ -13,7 +13,7 @@ TEST(Flight, DampedAndSpinning)
   Scene scene = makeScene(9.8, 1.0, { moving(withMass(makeBox("a", { 1, 3 }, { 0, 10 }), 2.0), { 1, 2 }, 5.0) });
   scene.damping = 0.3;
   World world(scene);
-  const BodyState from = world.state(0);
+  const MotionState from = world.state(0);
   const double inertia = 2.0 * 10.0 / 12.0;
   for (const double t : { 0.5, 1.0, 2.0 })
     expectState(stateAt(world, t), closed_form::dampedFlight(from, 2.0, inertia, 0.3, 0.1, 9.8, t), 1e-12);
@@ -28,7 +28,7 @@ TEST(Flight, DampingFromNoneToHuge)
     Scene scene = makeScene(9.8, 1.0, { moving(makeBox("a", { 1, 1 }, { 0, 0 }), { 1, 0 }, 1.0) });
     scene.damping = damping;
     World world(scene);
-    const BodyState from = world.state(0);
+    const MotionState from = world.state(0);
     expectState(stateAt(world, 1.0), closed_form::dampedFlight(from, 1.0, 1.0 / 6.0, damping, 0.1, 9.8, 1.0), 1e-12);
   }
 }
@@ -47,7 +47,7 @@ TEST(SpringMotion, WithRestLengthAndDamper)
   scene.springs = { spring };
   World world(scene);
   const closed_form::SpringBody body{ 1.5, 1.25, 3.0, spring.from_point, spring.to_point, 20.0, 0.75, 0.4 };
-  const BodyState from = world.state(0);
+  const MotionState from = world.state(0);
   for (const double t : { 0.5, 1.5, 3.0 })
     expectState(stateAt(world, t), body.after(from, t), 1e-10);
   expectExact(world, 1e-10);
@@ -64,7 +64,7 @@ TEST(SpringMotion, Mouse)
   pull.stiffness = 15.0;
   pull.damping = 0.3;
   ASSERT_TRUE(world.apply(pull).ok);
-  const BodyState from = world.state(0);
+  const MotionState from = world.state(0);
   for (const double t : { 0.5, 1.5, 3.0 })
     expectState(stateAt(world, t), body.after(from, t), 1e-10);
   expectExact(world, 1e-10);
@@ -103,9 +103,9 @@ TEST(SpringMotion, TiedBlocksKeepMomentumAndEnergy)
     scene.springs.push_back(spring);
   }
   World world(scene);
-  const Energy before = world.energy();
+  const EnergyAccount before = world.energy();
   run(world, 60.0);
-  const Energy after = world.energy();
+  const EnergyAccount after = world.energy();
   EXPECT_GT(world.statistics().impacts, 100);
   // Some 1e3 impacts and 1e4 arcs, each 1e-15 of values near 1.
   EXPECT_NEAR(after.momentum_x, before.momentum_x, 1e-11);
@@ -134,11 +134,11 @@ TEST(Impact, OffBothCentres)
     World world(makeScene(0.0, e,
                           { moving(makeBox("a", { 1, 1 }, { -2, 0.7 }, 0.3), { 1, 0.1 }, 0.2),
                             withMass(makeBox("b", { 1, 3 }, { 0, 0 }), 2.0) }));
-    const BodyState a = world.state(0), b = world.state(1);
+    const MotionState a = world.state(0), b = world.state(1);
     run(world, 1.4);
-    const Contact hit = firstContact(world, ContactKind::Impact);
+    const ContactEvent hit = firstContact(world, ContactKind::Impact);
     const double t = hit.time.seconds();
-    const auto at = [t](BodyState state) {
+    const auto at = [t](MotionState state) {
       state.position += t * state.velocity;
       state.angle += t * state.omega;
       return state;
@@ -204,7 +204,7 @@ TEST(Landing, Flat)
   for (const double e : { 1.0, 0.5 })
   {
     World world(makeScene(0.0, e, { moving(makeBox("a", { 1, 0.5 }, { 0, 0.5 }), { 0, -1 }) }, onFloor()));
-    const BodyState after = stateAt(world, 0.5);
+    const MotionState after = stateAt(world, 0.5);
     EXPECT_NEAR(after.velocity.y(), e, 1e-15);
     EXPECT_EQ(after.velocity.x(), 0.0);
     EXPECT_NEAR(after.omega, 0.0, 1e-15);
@@ -221,7 +221,7 @@ TEST(Landing, TiltLadder)
       Scene scene = makeScene(9.8, 1.0, { makeBox("a", { 1, 0.5 }, { 0, 1 }, tilt) }, onFloor());
       scene.tolerance = tolerance;
       World world(scene);
-      const BodyState after = stateAt(world, 0.5);
+      const MotionState after = stateAt(world, 0.5);
       SCOPED_TRACE("tolerance " + std::to_string(std::log10(tolerance)) + " tilt " + std::to_string(tilt * 1e9) +
                    "e-9");
       // The corners' heights differ by the tilt times the width, 1 m; near the tolerance either may be.
@@ -255,7 +255,7 @@ TEST(Landing, InAV)
                           { moving(makeBox("a", { 0.5, 0.5 }, { 0, 1 }, pi / 4), { 0, -1 }),
                             fixedOne(makeBox("right", { 4, 1 }, { 2 * s, s }, pi / 4)),
                             fixedOne(makeBox("left", { 4, 1 }, { -2 * s, s }, -pi / 4)) }));
-    const BodyState after = stateAt(world, 1.0);
+    const MotionState after = stateAt(world, 1.0);
     EXPECT_NEAR(after.velocity.y(), e, 1e-14);
     EXPECT_NEAR(after.velocity.x(), 0.0, 1e-14);
     EXPECT_NEAR(after.omega, 0.0, 1e-14);
@@ -286,7 +286,7 @@ TEST(Landing, HundredAtOnce)
   for (const double t : { 0.5, 0.9, 2.0 })
   {
     run(many, t);
-    const BodyState alone = stateAt(one, t);
+    const MotionState alone = stateAt(one, t);
     for (int i = 0; i < 100; ++i)
     {
       EXPECT_EQ(many.state(i).position.y(), alone.position.y()) << i;
@@ -299,7 +299,7 @@ TEST(Landing, HundredAtOnce)
 TEST(Landing, TiltedBox)
 {
   World world(makeScene(9.8, 0.8, { moving(makeBox("a", { 0.5, 0.3 }, { 0, 1 }, 0.2), { 0.25, 0 }) }, onFloor()));
-  const BodyState after = stateAt(world, 1.0);
+  const MotionState after = stateAt(world, 1.0);
   EXPECT_NEAR(after.position.x(), 0.25, 1e-14);
   EXPECT_NEAR(after.position.y(), 0.433151808042737, 1e-11);
   EXPECT_NEAR(after.angle, 4.099507681973138, 1e-11);

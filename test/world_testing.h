@@ -97,13 +97,13 @@ inline void run(World& world, double seconds)
   world.advance(Time::fromSeconds(seconds));
 }
 
-inline BodyState stateAt(World& world, double seconds, int body = 0)
+inline MotionState stateAt(World& world, double seconds, int body = 0)
 {
   run(world, seconds);
   return world.state(body);
 }
 
-inline void expectState(const BodyState& found, const BodyState& wanted, double error)
+inline void expectState(const MotionState& found, const MotionState& wanted, double error)
 {
   EXPECT_NEAR(found.position.x(), wanted.position.x(), error);
   EXPECT_NEAR(found.position.y(), wanted.position.y(), error);
@@ -113,7 +113,7 @@ inline void expectState(const BodyState& found, const BodyState& wanted, double 
   EXPECT_NEAR(found.omega, wanted.omega, error);
 }
 
-inline void expectSameBits(const BodyState& found, const BodyState& wanted)
+inline void expectSameBits(const MotionState& found, const MotionState& wanted)
 {
   expectState(found, wanted, 0.0);
 }
@@ -130,7 +130,7 @@ inline void expectSpeeds(const World& world, int axis, const std::vector<double>
 inline double restingForce(const World& world, const std::string& body)
 {
   double sum = 0.0;
-  for (const Contact& contact : world.restingContacts())
+  for (const ContactEvent& contact : world.restingContacts())
     if (world.name(contact.a) == body || world.name(contact.b) == body)
       sum += contact.impulse;
   return sum;
@@ -146,13 +146,13 @@ inline void expectExact(const World& world, double error)
 }
 
 /// The first contact of a kind among those since last asked; fails where there is none.
-inline Contact firstContact(World& world, ContactKind kind)
+inline ContactEvent firstContact(World& world, ContactKind kind)
 {
-  for (const Contact& contact : world.takeContacts())
+  for (const ContactEvent& contact : world.takeContacts())
     if (contact.kind == kind)
       return contact;
   ADD_FAILURE() << "no such contact";
-  return Contact();
+  return ContactEvent();
 }
 
 }  // namespace block_world

@@ -68,7 +68,7 @@ public:
   /// This instant moved by a span in s (negative allowed); a span that is not finite, or beyond 1e15 s, gives infinity().
   Time operator+(double span) const
   {
-    if (isInfinite() || !(span < 1e15))
+    if (isInfinite() || !(std::abs(span) < 1e15))
       return infinity();
     const double whole = std::floor(span);
     double fraction = fraction_ + (span - whole);

@@ -14,7 +14,7 @@
 namespace block_world
 {
 /// Pose of a body's centre of mass and its twist, world frame, SI. The angle is not wrapped.
-struct BodyState
+struct MotionState
 {
   Eigen::Vector2d position = Eigen::Vector2d::Zero();
   double angle = 0.0;
@@ -24,7 +24,7 @@ struct BodyState
 
 /// Energies in J and what changed them since the start of the account (load or reset).
 /// The gravity energy is zero at the bottom wall if there is one, else at y = 0, measured at the centre of mass.
-struct Energy
+struct EnergyAccount
 {
   double gravity = 0.0;
   double spring = 0.0;  ///< stored in all springs, the mouse's included
@@ -50,7 +50,7 @@ enum class ContactKind
 };
 
 /// One contact point at one instant. Bodies are indices of World; walls come after the blocks.
-struct Contact
+struct ContactEvent
 {
   Time time;
   ContactKind kind = ContactKind::Impact;
@@ -115,14 +115,14 @@ public:
   /// Index of a block by name, -1 if there is none.
   int find(const std::string& name) const;
 
-  BodyState state(int body) const;
-  Energy energy() const;
+  MotionState state(int body) const;
+  EnergyAccount energy() const;
   /// Impacts, rest begins and rest ends since last asked, in the order in which they happened.
-  std::vector<Contact> takeContacts();
+  std::vector<ContactEvent> takeContacts();
   /// Commands that the scene's timed inputs applied since last asked, with their times.
   std::vector<TimedCommand> takeInputs();
   /// The resting contacts that carry force now, with their forces.
-  std::vector<Contact> restingContacts() const;
+  std::vector<ContactEvent> restingContacts() const;
   /// Deepest overlap of any two bodies now, in m; 0 where none overlap.
   double overlap() const;
   std::vector<SpringState> springs() const;

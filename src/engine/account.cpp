@@ -172,7 +172,7 @@ void World::Engine::closeIsland(int body, const Time& time)
 }
 
 /// A straight arc from a state.
-void World::Engine::putAt(int body, const BodyState& state, const Time& time)
+void World::Engine::putAt(int body, const MotionState& state, const Time& time)
 {
   Arc arc;
   arc.start = time;
@@ -203,14 +203,14 @@ double World::Engine::mouseEnergy(const Body& body, const Time& time) const
 }
 
 /// What the state itself holds: energies and momenta.
-void World::Engine::stored(const Time& time, Energy& energy) const
+void World::Engine::stored(const Time& time, EnergyAccount& energy) const
 {
   for (int i = 0; i < block_count; ++i)
   {
     const Body& body = bodies[i];
     if (body.fixed)
       continue;
-    const BodyState state = body.stateAt(time);
+    const MotionState state = body.stateAt(time);
     energy.gravity += body.mass * field_.gravity * (state.position.y() - zero_height_);
     energy.translational += 0.5 * body.mass * state.velocity.squaredNorm();
     energy.rotational += 0.5 * body.inertia * state.omega * state.omega;
@@ -226,7 +226,7 @@ void World::Engine::stored(const Time& time, Energy& energy) const
 
 double World::Engine::storedTotal(const Time& time) const
 {
-  Energy energy;
+  EnergyAccount energy;
   stored(time, energy);
   return energy.total;
 }
@@ -237,9 +237,9 @@ void World::Engine::restartAccount()
   initial_total_ = storedTotal(now);
 }
 
-Energy World::Engine::energy() const
+EnergyAccount World::Engine::energy() const
 {
-  Energy energy;
+  EnergyAccount energy;
   stored(now, energy);
   energy.thrust_work = thrust_work_;
   energy.damping_loss = damping_loss_;
@@ -261,15 +261,15 @@ Energy World::Engine::energy() const
   return energy;
 }
 
-std::vector<Contact> World::Engine::restingContacts() const
+std::vector<ContactEvent> World::Engine::restingContacts() const
 {
-  std::vector<Contact> result;
+  std::vector<ContactEvent> result;
   for (int i = 0; i < block_count; ++i)
     for (const Rest& rest : islands_[i].rests)
     {
       const Body &a = bodies[rest.touch.a], &b = bodies[rest.touch.b];
       const Body& mover = a.fixed ? b : a;
-      Contact contact;
+      ContactEvent contact;
       contact.time = now;
       contact.kind = ContactKind::Rest;
       contact.a = rest.touch.a;
@@ -347,7 +347,7 @@ std::uint64_t World::Engine::stateHash() const
     add(body.elasticity);
     if (body.fixed)
       continue;
-    const BodyState state = body.stateAt(now);
+    const MotionState state = body.stateAt(now);
     for (double value : { state.position.x(), state.position.y(), state.angle, state.velocity.x(), state.velocity.y(), state.omega,
                           body.mass, body.push.x(), body.push.y(), body.twist })
       add(value);

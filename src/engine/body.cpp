@@ -26,11 +26,11 @@ Snapshot Body::at(const Time& time) const
   return now;
 }
 
-BodyState Body::stateAt(const Time& time) const
+MotionState Body::stateAt(const Time& time) const
 {
   const double s = arc.degree > 0 ? time - arc.start : 0.0;
   const int n = arc.degree;
-  BodyState state;
+  MotionState state;
   state.position = Vec2(evaluate(arc.x, n, s), evaluate(arc.y, n, s));
   state.angle = evaluate(arc.angle, n, s);
   state.velocity = Vec2(evaluateDerivative(arc.x, n, s), evaluateDerivative(arc.y, n, s));

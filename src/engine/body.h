@@ -71,7 +71,7 @@ struct Body
     return mouse.active || !springs.empty();
   }
   Snapshot at(const Time& time) const;
-  BodyState stateAt(const Time& time) const;
+  MotionState stateAt(const Time& time) const;
 };
 
 /// A scene spring between two bodies by index; second < 0: to_point is a world point.

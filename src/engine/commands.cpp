@@ -155,7 +155,7 @@ void World::Engine::rebuild(const Time& time)
     body.arc.start = time;
     if (body.fixed)
       continue;
-    BodyState state;
+    MotionState state;
     const Block& block = scene.blocks[i];
     state.position = block.position;
     state.angle = block.angle;
@@ -369,7 +369,7 @@ struct World::Engine::Handler
       return;
     const double before = engine.storedTotal(time);
     engine.dissolve(i, time);
-    BodyState state;
+    MotionState state;
     state.position = c.position;
     state.angle = c.angle;
     state.velocity = c.velocity;

@@ -126,7 +126,7 @@ void World::Engine::start()
   {
     Body& body = bodies[i];
     const Block& block = scene.blocks[i];
-    BodyState state;
+    MotionState state;
     state.position = block.position;
     state.angle = block.angle;
     state.velocity = block.velocity;

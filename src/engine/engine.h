@@ -32,8 +32,8 @@ public:
   Applied apply(const Command& command);
   Applied check(const Command& command);
 
-  Energy energy() const;
-  std::vector<Contact> restingContacts() const;
+  EnergyAccount energy() const;
+  std::vector<ContactEvent> restingContacts() const;
   double overlap() const;
   std::vector<SpringState> springs() const;
   std::uint64_t stateHash() const;
@@ -44,7 +44,7 @@ public:
   std::vector<std::string> notes;
   std::vector<Body> bodies;  ///< blocks in scene order, then walls
   int block_count = 0;
-  std::vector<Contact> contacts;
+  std::vector<ContactEvent> contacts;
   std::vector<TimedCommand> inputs_done;
   Statistics statistics;
 
@@ -101,8 +101,8 @@ private:
   void closeArc(int body, const Time& time);
   void closeSprings(int island, const Time& time);
   void closeIsland(int body, const Time& time);
-  void putAt(int body, const BodyState& state, const Time& time);
-  void stored(const Time& time, Energy& energy) const;
+  void putAt(int body, const MotionState& state, const Time& time);
+  void stored(const Time& time, EnergyAccount& energy) const;
   double storedTotal(const Time& time) const;
   double springEnergy(const SpringLink& link, const Time& time) const;
   double mouseEnergy(const Body& body, const Time& time) const;

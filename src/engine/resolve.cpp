@@ -191,7 +191,7 @@ void World::Engine::report(const Time& time, bool last)
 {
   int last_pair = -1;
   const auto contactOf = [&](const Touch& t, ContactKind kind) {
-    Contact contact;
+    ContactEvent contact;
     contact.time = time;
     contact.kind = kind;
     contact.a = t.a;
@@ -214,7 +214,7 @@ void World::Engine::report(const Time& time, bool last)
     const bool hit = std::abs(impulse) > threshold;
     if (hit && !(fresh && last))
     {
-      Contact contact = contactOf(t, ContactKind::Impact);
+      ContactEvent contact = contactOf(t, ContactKind::Impact);
       contact.impulse = impulse;
       contacts.push_back(contact);
     }
@@ -225,7 +225,7 @@ void World::Engine::report(const Time& time, bool last)
     }
     if (fresh && last)
     {
-      Contact contact = contactOf(t, ContactKind::RestBegin);
+      ContactEvent contact = contactOf(t, ContactKind::RestBegin);
       contact.impulse = impulse;
       contacts.push_back(contact);
     }
@@ -247,7 +247,7 @@ void World::Engine::report(const Time& time, bool last)
     ended.normal = b.frame.rotate(bodies[ended.b].shape.faces[ended.face].normal);
     ended.reach = a.frame.position + ended.arm - b.frame.position;
     ended.approach = normalVelocity(ended, a, b);
-    Contact contact = contactOf(ended, ContactKind::RestEnd);
+    ContactEvent contact = contactOf(ended, ContactKind::RestEnd);
     contacts.push_back(contact);
   }
 }

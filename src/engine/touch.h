@@ -62,7 +62,7 @@ class TouchFinder
 public:
   /// tolerance: m, the contact shell; closed: m, below which a difference of gaps is rounding.
   void find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,
-            std::vector<Touch>& touches, double closed = 0.0);
+            std::vector<Touch>& touches, double closed);
   /// Whether the last find had to choose between tied faces by the velocities.
   bool velocityDecided() const
   {

@@ -64,19 +64,19 @@ int World::find(const std::string& name) const
   return -1;
 }
 
-BodyState World::state(int body) const
+MotionState World::state(int body) const
 {
   return engine_->bodies[body].stateAt(engine_->now);
 }
 
-Energy World::energy() const
+EnergyAccount World::energy() const
 {
   return engine_->energy();
 }
 
-std::vector<Contact> World::takeContacts()
+std::vector<ContactEvent> World::takeContacts()
 {
-  std::vector<Contact> taken;
+  std::vector<ContactEvent> taken;
   taken.swap(engine_->contacts);
   return taken;
 }
@@ -88,7 +88,7 @@ std::vector<TimedCommand> World::takeInputs()
   return taken;
 }
 
-std::vector<Contact> World::restingContacts() const
+std::vector<ContactEvent> World::restingContacts() const
 {
   return engine_->restingContacts();
 }

@@ -56,7 +56,7 @@ struct Payload
   {
     input.kind = msg::Input::SET_STATE;
     input.state =
-        toMessage(command.body, BodyState{ command.position, command.angle, command.velocity, command.omega });
+        toMessage(command.body, MotionState{ command.position, command.angle, command.velocity, command.omega });
   }
   void operator()(const SpawnCommand& command)
   {
@@ -168,7 +168,7 @@ msg::Input toInput(const Command& command)
   return input;
 }
 
-msg::BodyState toMessage(const std::string& name, const BodyState& state)
+msg::BodyState toMessage(const std::string& name, const MotionState& state)
 {
   msg::BodyState message;
   message.name = name;
@@ -193,7 +193,7 @@ msg::BodyStates bodyStates(const World& world)
 
 msg::Energy energy(const World& world)
 {
-  const Energy energy = world.energy();
+  const EnergyAccount energy = world.energy();
   msg::Energy message;
   message.time = world.now().seconds();
   message.gravity = energy.gravity;
@@ -213,7 +213,7 @@ msg::Energy energy(const World& world)
   return message;
 }
 
-msg::Contact toMessage(const World& world, const Contact& contact)
+msg::Contact toMessage(const World& world, const ContactEvent& contact)
 {
   msg::Contact message;
   message.time = contact.time.seconds();
@@ -229,7 +229,7 @@ msg::Contact toMessage(const World& world, const Contact& contact)
   return message;
 }
 
-geometry_msgs::Transform toTransform(const BodyState& state)
+geometry_msgs::Transform toTransform(const MotionState& state)
 {
   geometry_msgs::Transform transform;
   transform.translation.x = state.position.x();

@@ -29,14 +29,14 @@ geometry_msgs::Wrench toMessage(const WrenchCommand& command);
 /// Kind and payload; header, time and index are the caller's.
 msg::Input toInput(const Command& command);
 
-msg::BodyState toMessage(const std::string& name, const BodyState& state);
+msg::BodyState toMessage(const std::string& name, const MotionState& state);
 /// All but the header.
 msg::BodyStates bodyStates(const World& world);
 msg::Energy energy(const World& world);
-msg::Contact toMessage(const World& world, const Contact& contact);
+msg::Contact toMessage(const World& world, const ContactEvent& contact);
 
 /// Without header.
-geometry_msgs::Transform toTransform(const BodyState& state);
+geometry_msgs::Transform toTransform(const MotionState& state);
 geometry_msgs::Point toPoint(const Eigen::Vector2d& point, double z = 0.0);
 
 /// Simulated time of a message, origin + simulated; 1 ns where that is 0, which means "no time" in ROS.

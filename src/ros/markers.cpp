@@ -61,7 +61,7 @@ Extent extentOf(const World& world)
   extent.add(Eigen::Vector2d::Zero());
   for (int body = 0; body < world.bodyCount(); ++body)
   {
-    const BodyState state = world.state(body);
+    const MotionState state = world.state(body);
     for (const Eigen::Vector2d& vertex : world.block(body).vertices)
     {
       extent.add(state.position + Eigen::Vector2d::Constant(vertex.norm()));
@@ -202,9 +202,9 @@ Overlay::Overlay(const World& world)
   metre_per_ns_ = 0.5 * size_ / std::max(mean_mass, 1e-9);
 }
 
-void Overlay::remember(const std::vector<Contact>& contacts)
+void Overlay::remember(const std::vector<ContactEvent>& contacts)
 {
-  for (const Contact& contact : contacts)
+  for (const ContactEvent& contact : contacts)
     if (contact.kind == ContactKind::Impact)
       impacts_.push_back(contact);
   while (impacts_.size() > MOST_IMPULSES)
@@ -246,7 +246,7 @@ Marker Overlay::flames(const World& world) const
   for (int body = 0; body < world.bodyCount(); ++body)
   {
     const std::vector<double> levels = world.thrustLevels(body);
-    const BodyState state = world.state(body);
+    const MotionState state = world.state(body);
     for (std::size_t i = 0; i < levels.size(); ++i)
     {
       const Thruster& thruster = world.thrusters(body)[i];
@@ -272,7 +272,7 @@ Marker Overlay::forces(const World& world) const
   Marker marker = makeMarker("", "contact_forces", 0, Marker::LINE_LIST);
   marker.scale.x = 0.045 * size_;
   marker.color = color(.8, 0., 0.);
-  for (const Contact& contact : world.restingContacts())
+  for (const ContactEvent& contact : world.restingContacts())
     if (contact.impulse > 0.0)
       addArrow(marker, contact.point, contact.impulse * metre_per_n_ * contact.normal);
   return marker;
@@ -285,7 +285,7 @@ Marker Overlay::impulses(const World& world)
 
   Marker marker = makeMarker("", "impulses", 0, Marker::LINE_LIST);
   marker.scale.x = 0.05 * size_;
-  for (const Contact& contact : impacts_)
+  for (const ContactEvent& contact : impacts_)
   {
     const double age = world.now() - contact.time;
     // Hard hits would draw across the whole view.

@@ -23,7 +23,7 @@ public:
   explicit Overlay(const World& world);
 
   /// Impacts among the contacts are shown for a moment from now on.
-  void remember(const std::vector<Contact>& contacts);
+  void remember(const std::vector<ContactEvent>& contacts);
   void forgetImpulses();
 
   /// All in the world frame; what is not there is deleted from the view.
@@ -38,7 +38,7 @@ private:
   double size_;          ///< m, a typical block's
   double metre_per_n_;   ///< length of a force's arrow
   double metre_per_ns_;  ///< length of an impulse's arrow
-  std::deque<Contact> impacts_;
+  std::deque<ContactEvent> impacts_;
 };
 
 }  // namespace block_world

@@ -6,11 +6,6 @@
 #include <ros/ros.h>
 #include <std_msgs/Header.h>
 
-// The generated headers declare block_world::BodyState, Contact and Energy, and so does the engine. Here the generated
-// names give way; always include this file instead of the generated ones.
-#define BodyState BodyStateMessage
-#define Contact ContactMessage
-#define Energy EnergyMessage
 #include <block_world/BodyStates.h>
 #include <block_world/Contacts.h>
 #include <block_world/Energy.h>
@@ -18,18 +13,15 @@
 #include <block_world/SpringForce.h>
 #include <block_world/Step.h>
 #include <block_world/Thrust.h>
-#undef BodyState
-#undef Contact
-#undef Energy
 
 namespace block_world
 {
 /// The messages of this package, as msg::X.
 namespace msg
 {
-using BodyState = BodyStateMessage;
-using Contact = ContactMessage;
-using Energy = EnergyMessage;
+using block_world::BodyState;
+using block_world::Contact;
+using block_world::Energy;
 using block_world::BodyStates;
 using block_world::Contacts;
 using block_world::Input;

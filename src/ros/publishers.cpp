@@ -76,7 +76,7 @@ void Publishers::publishShapes()
   markers_.publish(sceneMarkers(world_, frame_id_, tf_prefix_));
 }
 
-void Publishers::publishState(std::int64_t now_ns, std::vector<Contact> contacts)
+void Publishers::publishState(std::int64_t now_ns, std::vector<ContactEvent> contacts)
 {
   state_ns_ = now_ns;
   started_ = true;
@@ -146,12 +146,12 @@ void Publishers::publishTransforms(std::int64_t now_ns)
     transforms_.publish(transforms());
 }
 
-void Publishers::publishContacts(std::int64_t now_ns, const std::vector<Contact>& contacts)
+void Publishers::publishContacts(std::int64_t now_ns, const std::vector<ContactEvent>& contacts)
 {
   msg::Contacts message;
-  for (const Contact& contact : contacts)
+  for (const ContactEvent& contact : contacts)
     message.contacts.push_back(toMessage(world_, contact));
-  for (const Contact& contact : world_.restingContacts())
+  for (const ContactEvent& contact : world_.restingContacts())
     message.contacts.push_back(toMessage(world_, contact));
   if (message.contacts.empty())
     return;

@@ -28,7 +28,7 @@ public:
   void publishShapes();
 
   /// The state at now(), with the contacts since the last call.
-  void publishState(std::int64_t now_ns, std::vector<Contact> contacts);
+  void publishState(std::int64_t now_ns, std::vector<ContactEvent> contacts);
   /// Once more after a change at the same instant.
   void publishOverlay(std::int64_t now_ns);
   void forgetImpulses();
@@ -41,7 +41,7 @@ private:
   std_msgs::Header header(std::int64_t now_ns) const;
   tf2_msgs::TFMessage transforms() const;
   void publishTransforms(std::int64_t now_ns);
-  void publishContacts(std::int64_t now_ns, const std::vector<Contact>& contacts);
+  void publishContacts(std::int64_t now_ns, const std::vector<ContactEvent>& contacts);
 
   void onTransformSubscriber(const ros::SingleSubscriberPublisher& subscriber);
   void onBodiesSubscriber(const ros::SingleSubscriberPublisher& subscriber);

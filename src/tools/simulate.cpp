@@ -98,7 +98,7 @@ Sample readSample(World& world, const Output& output)
     sample.states.push_back(world.state(body));
   if (output.wantsEnergy())
     sample.energy = world.energy();
-  std::vector<Contact> contacts = world.takeContacts();
+  std::vector<ContactEvent> contacts = world.takeContacts();
   if (output.wantsContacts())
   {
     sample.contacts = std::move(contacts);

@@ -103,7 +103,7 @@ void Output::write(const World& world, const Sample& sample)
   {
     if (world.isFixed(body))
       continue;
-    const BodyState& state = sample.states[body];
+    const MotionState& state = sample.states[body];
     states_.add(sample.time.seconds());
     states_.add(world.name(body));
     for (const double number :
@@ -113,20 +113,20 @@ void Output::write(const World& world, const Sample& sample)
   }
   if (energy_)
   {
-    const Energy& e = sample.energy;
+    const EnergyAccount& e = sample.energy;
     for (const double number :
          { sample.time.seconds(), e.gravity, e.spring, e.translational, e.rotational, e.total, e.thrust_work,
            e.spring_work, e.command_work, e.damping_loss, e.impact_loss, e.balance_error })
       energy_->add(number);
     energy_->endRow();
   }
-  for (const Contact& contact : sample.contacts)
+  for (const ContactEvent& contact : sample.contacts)
     writeContact(world, contact);
-  for (const Contact& contact : sample.resting)
+  for (const ContactEvent& contact : sample.resting)
     writeContact(world, contact);
 }
 
-void Output::writeContact(const World& world, const Contact& contact)
+void Output::writeContact(const World& world, const ContactEvent& contact)
 {
   contacts_->add(contact.time.seconds());
   contacts_->add(nameOf(contact.kind));

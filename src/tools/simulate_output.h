@@ -36,9 +36,9 @@ private:
 struct Sample
 {
   Time time;
-  std::vector<BodyState> states;  ///< of all bodies, fixed ones too
-  Energy energy;
-  std::vector<Contact> contacts, resting;
+  std::vector<MotionState> states;  ///< of all bodies, fixed ones too
+  EnergyAccount energy;
+  std::vector<ContactEvent> contacts, resting;
 };
 
 /// The files that a run writes.
@@ -61,7 +61,7 @@ public:
   void close();
 
 private:
-  void writeContact(const World& world, const Contact& contact);
+  void writeContact(const World& world, const ContactEvent& contact);
 
   Table states_;
   std::unique_ptr<Table> energy_, contacts_;

@@ -101,7 +101,7 @@ double cornerError(const peers::Simulation& simulation, const Bodies& expected)
   double error = 0.0;
   for (std::size_t block = 0; block < expected.size(); ++block)
   {
-    const block_world::BodyState state = simulation.state(static_cast<int>(block));
+    const block_world::MotionState state = simulation.state(static_cast<int>(block));
     reference::Body body = expected[block];
     body.position = state.position.cast<reference::Real>();
     body.angle = state.angle;

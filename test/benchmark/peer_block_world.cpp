@@ -17,7 +17,7 @@ public:
     world_.advance(block_world::Time::fromNanoseconds((frame_ * 1000000000 + frame_rate / 2) / frame_rate));
   }
 
-  block_world::BodyState state(int block) const override
+  block_world::MotionState state(int block) const override
   {
     return world_.state(block);
   }

@@ -25,10 +25,10 @@ public:
     world_.Step(1.0f / frame_rate, 8, 3);
   }
 
-  block_world::BodyState state(int block) const override
+  block_world::MotionState state(int block) const override
   {
     const b2Body& body = *bodies_[block];
-    block_world::BodyState state;
+    block_world::MotionState state;
     state.position = { body.GetPosition().x, body.GetPosition().y };
     state.angle = body.GetAngle();
     state.velocity = { body.GetLinearVelocity().x, body.GetLinearVelocity().y };

@@ -45,11 +45,11 @@ public:
     cpSpaceStep(space_, 1.0 / frame_rate);
   }
 
-  block_world::BodyState state(int block) const override
+  block_world::MotionState state(int block) const override
   {
     const cpBody* body = bodies_[block];
     const cpVect position = cpBodyGetPosition(body), velocity = cpBodyGetVelocity(body);
-    block_world::BodyState state;
+    block_world::MotionState state;
     state.position = { position.x, position.y };
     state.angle = cpBodyGetAngle(body);
     state.velocity = { velocity.x, velocity.y };

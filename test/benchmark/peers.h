@@ -18,7 +18,7 @@ public:
   virtual ~Simulation() = default;
   /// Advances by 1/60 s.
   virtual void nextFrame() = 0;
-  virtual block_world::BodyState state(int block) const = 0;
+  virtual block_world::MotionState state(int block) const = 0;
 };
 
 struct Engine

@@ -117,7 +117,7 @@ TEST(Input, holdsWhatIsNeededToRebuildEveryCommand)
 
 TEST(Transform, holdsTheAngleAboutZ)
 {
-  BodyState state;
+  MotionState state;
   state.position = { 1.0, 2.0 };
   state.angle = 7.0;
   const geometry_msgs::Transform transform = toTransform(state);
