@@ -249,82 +249,6 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
   return 1.0 - sum < 1e-12;  // the minimum is -sum/2
 }
 
-/// Capture: the pressed touches end at rest, and no other closed one is left approaching. The projection of the velocities, in the mass metric, on the
-/// cone w_P = 0, w_O >= 0, so the energy can only fall. With the rows of P eliminated it is one complementarity problem in the others:
-/// A~ = A_OO - A_OP A_PP^-1 A_PO, b~ = w_O - A_OP A_PP^-1 w_P, and l_P = -A_PP^-1 (w_P + A_PO l_O).
-double ContactGroup::capture()
-{
-  if (pressed_.empty())
-    return 0.0;
-  factor_.clear();
-  for (std::size_t k = 0; k < pressed_.size();)
-  {
-    row_.resize(k + 1);
-    for (std::size_t j = 0; j <= k; ++j)
-      row_[j] = gram_(pressed_[k], pressed_[j]);
-    if (factor_.append(row_.data()))
-      ++k;
-    else
-      pressed_.erase(pressed_.begin() + k);
-  }
-  const std::size_t held = pressed_.size();
-  others_.clear();
-  for (int i : all_)
-    if (touches[i].gap <= closed_ && std::find(pressed_.begin(), pressed_.end(), i) == pressed_.end())
-      others_.push_back(i);
-  const std::size_t open = others_.size();
-
-  solution_.resize(held);
-  for (std::size_t k = 0; k < held; ++k)
-    solution_[k] = velocityOf(pressed_[k]);
-  factor_.solve(solution_.data());  // A_PP^-1 w_P
-  std::vector<double>& columns = before_;
-  columns.resize(held * open);  // A_PP^-1 A_PO, column by column
-  b_.clear();
-  bool approaches = false;
-  for (std::size_t o = 0; o < open; ++o)
-  {
-    double b = velocityOf(others_[o]);
-    for (std::size_t k = 0; k < held; ++k)
-    {
-      columns[o * held + k] = gram_(pressed_[k], others_[o]);
-      b -= columns[o * held + k] * solution_[k];
-    }
-    factor_.solve(columns.data() + o * held);
-    b_.push_back(b);
-    approaches = approaches || b < -noise_;
-  }
-  double loss = 0.0;
-  if (approaches)
-  {
-    reduced_.resize(static_cast<int>(open));
-    former_.resize(open);
-    for (std::size_t o = 0; o < open; ++o)
-    {
-      former_[o] = static_cast<int>(o);
-      for (std::size_t q = 0; q <= o; ++q)
-      {
-        double entry = gram_(others_[o], others_[q]);
-        for (std::size_t k = 0; k < held; ++k)
-          entry -= gram_(others_[o], pressed_[k]) * columns[q * held + k];
-        reduced_(static_cast<int>(o), static_cast<int>(q)) = reduced_(static_cast<int>(q), static_cast<int>(o)) = entry;
-      }
-    }
-    solver_.solve(reduced_, former_, b_);
-    for (std::size_t o = 0; o < open; ++o)
-    {
-      const double l = solver_.value()[o];
-      if (l == 0.0)
-        continue;
-      const double speed = velocityOf(others_[o]);
-      push(others_[o], l);
-      touches[others_[o]].capture += l;
-      loss -= 0.5 * l * (speed + velocityOf(others_[o]));
-    }
-  }
-  return loss + stop(pressed_, true);
-}
-
 /// Closed touches that do not open faster than what counts as slow.
 void ContactGroup::approachingSlowly()
 {
@@ -354,7 +278,6 @@ double ContactGroup::collide(const ContactScales& scales)
   bool locked = false;
   pulling_ = true;
   bool quiet = false;
-  int captures = 0;
   const int cap = 100 * (n + 10);
   for (int stage = 0; stage < cap && !quiet; ++stage)
   {
@@ -377,14 +300,14 @@ double ContactGroup::collide(const ContactScales& scales)
           fast_.push_back(i);
       if (fast_.empty())
       {
-        loss += pulling_ ? capture() : stop(pressed_, true);
+        loss += stop(pressed_, true);
         former_ = pressed_;
         solveRest();
         quiet = pressed_ == former_;
         for (int i = 0; i < n && quiet; ++i)
           quiet = !meets_[i] || velocityOf(i) >= (touches[i].gap > closed_ ? -rest_speed_[i] : -noise_);
-        // Captures that do not come to an end: from here on what is slow only stops, and nothing is held back.
-        pulling_ = pulling_ && ++captures < 10;
+        // If the capture made another one approach: from here on what is slow only stops, and nothing is held back.
+        pulling_ = false;
         continue;
       }
     }

@@ -66,7 +66,6 @@ private:
   void findSimultaneous();
   double reflect(const std::vector<int>& rows);
   double stop(const std::vector<int>& rows, bool pulling);
-  double capture();
   void clean();
   bool anyElastic(const std::vector<int>& rows) const;
   void solveRest();
@@ -77,8 +76,7 @@ private:
   SymmetricMatrix gram_;
   Complementarity solver_;
   Cholesky factor_;
-  SymmetricMatrix reduced_;
-  std::vector<int> fast_, slow_, pressed_, all_, former_, others_;
+  std::vector<int> fast_, slow_, pressed_, all_, former_;
   std::vector<double> rest_speed_, b_, before_, row_, solution_;
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
@@ -88,7 +86,7 @@ private:
   };
   std::vector<Size> sizes_;
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
-  bool pulling_ = true;  ///< captures hold back what opens slowly
+  bool pulling_ = true;  ///< the first capture of an event holds back what opens slowly
 };
 
 }  // namespace block_world
