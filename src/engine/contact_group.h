@@ -66,6 +66,7 @@ private:
   void findSimultaneous();
   double reflect(const std::vector<int>& rows);
   double stop(const std::vector<int>& rows, bool pulling);
+  void dropStrongPulls();
   void clean();
   bool anyElastic(const std::vector<int>& rows) const;
   void solveRest();
@@ -78,6 +79,7 @@ private:
   Cholesky factor_;
   std::vector<int> fast_, slow_, pressed_, all_, former_;
   std::vector<double> rest_speed_, b_, before_, row_, solution_;
+  std::vector<char> hops_;   ///< by touch: opens, and is not held back
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
   struct Size
