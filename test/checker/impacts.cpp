@@ -199,8 +199,8 @@ void Replay::checkSingle(const ContactRow& row, const std::vector<State>& before
   const double in = normalVelocity(row, before), out = normalVelocity(row, states_);
   const double limit = 10.0 * relative_error * std::max(1.0, speed);
   checks_.approach.add(std::abs(row.normal_velocity - in), limit, row.time, row.a, row.b);
-  // A bounce too low for the tolerance to tell from rest may be taken for rest.
-  const double least = std::abs(in) <= captureSpeed(row, before) ? 0.0 : elastic;
+  // A bounce too low for the tolerance to tell from rest may be taken for rest, be it the one that comes or the one that would follow.
+  const double least = elastic * std::abs(in) <= captureSpeed(row, before) ? 0.0 : elastic;
   checks_.restitution.add(excess(out, -least * in, -elastic * in), limit, row.time, row.a, row.b);
   checks_.impulse.add(excess(row.impulse, -(1.0 + least) * in / yielding, -(1.0 + elastic) * in / yielding),
                       2.0 * limit / yielding, row.time, row.a, row.b);
