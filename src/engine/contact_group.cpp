@@ -249,8 +249,9 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
   return 1.0 - sum < 1e-12;  // the minimum is -sum/2
 }
 
-/// Holding back what opens slowly must take no more than what opens slowly has: a touch that would be pulled by more than its mass times the capture
-/// speed belongs to a fast turn seen from a short lever, and hops. The rows of the others stay, without those that depend on them.
+/// Holding back what opens slowly must take no more than what opens slowly has: a touch that would be pulled by several times its mass times the
+/// capture speed belongs to a fast turn seen from a short lever, and hops. (The two ends of a flat side need up to twice that, for their pulls turn
+/// the block against one another; twice as much again is allowed.) The rows of the others stay, without those that depend on them.
 void ContactGroup::dropStrongPulls()
 {
   for (;;)
@@ -271,7 +272,7 @@ void ContactGroup::dropStrongPulls()
       solution_[k] = -velocityOf(pressed_[k]);
     factor_.solve(solution_.data());
     int strongest = -1;
-    double most = 1.0;
+    double most = 4.0;
     for (std::size_t k = 0; k < pressed_.size(); ++k)
     {
       const int i = pressed_[k];
