@@ -76,11 +76,12 @@ void ContactGroup::scale(const ContactScales& scales)
   // decaying series of bounces is replaced by its limit. A contact that loses nothing has no such limit; there only what the
   // coordinates cannot resolve is taken away.
   rest_speed_.resize(touches.size());
+  depth_.resize(touches.size());
   for (std::size_t i = 0; i < touches.size(); ++i)
   {
     const bool lossless = touches[i].elasticity == 1.0 && !scales.dissipative;
-    const double depth = lossless ? scales.resolution : scales.tolerance;
-    rest_speed_[i] = std::max(noise_, std::sqrt(8.0 * depth * acceleration_scale_));
+    depth_[i] = lossless ? scales.resolution : scales.tolerance;
+    rest_speed_[i] = std::max(noise_, std::sqrt(8.0 * depth_[i] * acceleration_scale_));
   }
 }
 
@@ -145,83 +146,24 @@ double ContactGroup::reflect(const std::vector<int>& rows)
   return loss;
 }
 
-/// Inelastic end. With pulling, the named (independent) touches end at zero velocity exactly; without, they only stop approaching.
-double ContactGroup::stop(const std::vector<int>& rows, bool pulling)
+/// Inelastic end: the named touches stop approaching, min |dv| in the mass metric with w >= 0. Returns the energy lost.
+double ContactGroup::stop(const std::vector<int>& rows)
 {
-  if (rows.empty())
-    return 0.0;
   b_.clear();
   for (int i : rows)
     b_.push_back(velocityOf(i));
-  solution_.assign(rows.size(), 0.0);
-  if (pulling)
-  {
-    factor_.clear();
-    for (std::size_t k = 0; k < rows.size(); ++k)
-    {
-      row_.resize(k + 1);
-      for (std::size_t j = 0; j <= k; ++j)
-        row_[j] = gram_(rows[k], rows[j]);
-      if (!factor_.append(row_.data()))
-        return 0.0;
-    }
-    for (int pass = 0; pass < 2; ++pass)
-    {
-      before_.resize(rows.size());
-      for (std::size_t k = 0; k < rows.size(); ++k)
-        before_[k] = -velocityOf(rows[k]);
-      factor_.solve(before_.data());
-      for (std::size_t k = 0; k < rows.size(); ++k)
-      {
-        push(rows[k], before_[k]);
-        solution_[k] += before_[k];
-      }
-    }
-  }
-  else
-  {
-    solver_.solve(gram_, rows, b_);
-    solution_ = solver_.value();
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (solution_[k] != 0.0)
-        push(rows[k], solution_[k]);
-  }
+  solver_.solve(gram_, rows, b_);
+  const std::vector<double>& l = solver_.value();
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    if (l[k] != 0.0)
+      push(rows[k], l[k]);
   double loss = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
-    touches[rows[k]].capture += solution_[k];
-    loss -= 0.5 * solution_[k] * (b_[k] + velocityOf(rows[k]));
+    touches[rows[k]].capture += l[k];
+    loss -= 0.5 * l[k] * (b_[k] + velocityOf(rows[k]));
   }
   return loss;
-}
-
-/// Which slow and closed touches the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces.
-void ContactGroup::solveRest()
-{
-  slow_.clear();
-  b_.clear();
-  for (std::size_t i = 0; i < touches.size(); ++i)
-  {
-    touches[i].force = 0.0;
-    const double limit = pulling_ && !hops_[i] ? rest_speed_[i] : noise_;
-    if (touches[i].corner || touches[i].gap > closed_ || std::abs(velocityOf(static_cast<int>(i))) > limit)
-      continue;
-    slow_.push_back(static_cast<int>(i));
-    b_.push_back(normalAcceleration(touches[i], members[touches[i].member_a], members[touches[i].member_b]));
-  }
-  pressed_.clear();
-  // A free acceleration below the rounding of the accelerations presses nothing.
-  double strongest = 0.0;
-  for (double b : b_)
-    strongest = std::max(strongest, -b);
-  if (strongest <= 1e-14 * acceleration_scale_)
-    return;
-  solver_.solve(gram_, slow_, b_);
-  for (int k : solver_.support())
-  {
-    pressed_.push_back(slow_[k]);
-    touches[slow_[k]].force = solver_.value()[k];
-  }
 }
 
 /// Gordan's alternative: no velocity opens all these touches exactly if some l >= 0, sum l = 1, has l'A l = 0. With c = (1, ..., 1),
@@ -249,56 +191,6 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
   return 1.0 - sum < 1e-12;  // the minimum is -sum/2
 }
 
-/// Holding back what opens slowly must take no more than what opens slowly has: a touch that would be pulled by several times its mass times the
-/// capture speed belongs to a fast turn seen from a short lever, and hops. (The two ends of a flat side need up to twice that, for their pulls turn
-/// the block against one another; twice as much again is allowed.) The rows of the others stay, without those that depend on them.
-void ContactGroup::dropStrongPulls()
-{
-  for (;;)
-  {
-    factor_.clear();
-    for (std::size_t k = 0; k < pressed_.size();)
-    {
-      row_.resize(k + 1);
-      for (std::size_t j = 0; j <= k; ++j)
-        row_[j] = gram_(pressed_[k], pressed_[j]);
-      if (factor_.append(row_.data()))
-        ++k;
-      else
-        pressed_.erase(pressed_.begin() + k);
-    }
-    solution_.resize(pressed_.size());
-    for (std::size_t k = 0; k < pressed_.size(); ++k)
-      solution_[k] = -velocityOf(pressed_[k]);
-    factor_.solve(solution_.data());
-    int strongest = -1;
-    double most = 4.0;
-    for (std::size_t k = 0; k < pressed_.size(); ++k)
-    {
-      const int i = pressed_[k];
-      const double pull = -solution_[k] * gram_(i, i) / rest_speed_[i];
-      if (pull > most && velocityOf(i) > noise_)
-      {
-        most = pull;
-        strongest = static_cast<int>(k);
-      }
-    }
-    if (strongest < 0)
-      return;
-    hops_[pressed_[strongest]] = 1;
-    pressed_.erase(pressed_.begin() + strongest);
-  }
-}
-
-/// Closed touches that do not open faster than what counts as slow.
-void ContactGroup::approachingSlowly()
-{
-  slow_.clear();
-  for (std::size_t i = 0; i < touches.size(); ++i)
-    if (touches[i].gap <= closed_ && velocityOf(static_cast<int>(i)) <= rest_speed_[i])
-      slow_.push_back(static_cast<int>(i));
-}
-
 double ContactGroup::collide(const ContactScales& scales)
 {
   const int n = static_cast<int>(touches.size());
@@ -316,60 +208,36 @@ double ContactGroup::collide(const ContactScales& scales)
       all_.push_back(i);
 
   double loss = 0.0;
-  bool locked = false;
-  pulling_ = true;
-  hops_.assign(n, 0);
-  bool quiet = false;
+  bool planned = false;
+  // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends
+  // inelastically.
   const int cap = 100 * (n + 10);
-  for (int stage = 0; stage < cap && !quiet; ++stage)
+  for (int stage = 0; stage < cap && !planned; ++stage)
   {
+    if (stage == 50 && isLocked(all_))
+      break;
     fast_.clear();
-    for (int i = 0; i < n; ++i)
-      if (meets_[i] && velocityOf(i) < -rest_speed_[i])
+    for (int i : all_)
+      if (velocityOf(i) < -rest_speed_[i])
         fast_.push_back(i);
     if (fast_.empty())
     {
-      if (!pulling_)
-      {
-        approachingSlowly();
-        loss += stop(slow_, false);
-      }
-      solveRest();
-      // A slow one that is still open comes to its own contact. What approaches slowly without being pressed is no end of a series of bounces: it is
-      // reflected like any other.
-      for (int i = 0; i < n && pulling_; ++i)
-        if (touches[i].gap <= closed_ && velocityOf(i) < -noise_ && std::find(pressed_.begin(), pressed_.end(), i) == pressed_.end())
-          fast_.push_back(i);
-      if (fast_.empty())
-      {
-        dropStrongPulls();
-        loss += stop(pressed_, true);
-        former_ = pressed_;
-        solveRest();
-        quiet = pressed_ == former_;
-        for (int i = 0; i < n && quiet; ++i)
-          quiet = !meets_[i] || velocityOf(i) >= (touches[i].gap > closed_ ? -rest_speed_[i] : -noise_);
-        // If the capture made another one approach: from here on what is slow only stops, and nothing is held back.
-        pulling_ = false;
-        continue;
-      }
+      planCapture();
+      for (std::size_t k = 0; k < others_.size(); ++k)
+        if (pushes_[k] > 0.0 && velocityOf(others_[k]) < -noise_)
+          fast_.push_back(others_[k]);
+      planned = !anyElastic(fast_);
+      if (planned)
+        break;
     }
-    if (stage == 50)
-      locked = isLocked(all_);
-    if (locked || !anyElastic(fast_))
-      loss += stop(all_, false);
-    else
-      loss += reflect(fast_);
+    loss += anyElastic(fast_) ? reflect(fast_) : stop(all_);
   }
-  if (!quiet)
+  if (!planned)
   {
-    // More stages than any free cone is known to need: what is left ends inelastically.
-    pulling_ = false;
-    loss += stop(all_, false);
-    solveRest();
+    loss += stop(all_);
+    planCapture();
   }
-  for (int i : pressed_)
-    touches[i].active = true;
+  loss += capture();
   clean();
   return loss;
 }
@@ -386,45 +254,22 @@ bool ContactGroup::struck() const
   return std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.impulse != 0.0 || t.capture != 0.0; });
 }
 
-double ContactGroup::holdActive()
-{
-  prepare();
-  pressed_.clear();
-  for (std::size_t i = 0; i < touches.size(); ++i)
-    if (touches[i].active)
-      pressed_.push_back(static_cast<int>(i));
-  const double loss = stop(pressed_, true);
-  clean();
-  return loss;
-}
-
 double ContactGroup::settlePositions(double resolution, double& loss)
 {
   // min |dq| in the mass metric with gap + J dq = 0.
-  slow_.clear();
-  b_.clear();
+  pressed_.clear();
   double lowest = 0.0;
   for (std::size_t i = 0; i < touches.size(); ++i)
   {
     const Touch& t = touches[i];
     if (t.corner || !(t.active || std::max(t.gap, t.separation) < -resolution))
       continue;
-    slow_.push_back(static_cast<int>(i));
+    pressed_.push_back(static_cast<int>(i));
     lowest = std::max(lowest, std::abs(t.gap));
   }
   if (lowest == 0.0)
     return 0.0;
-  factor_.clear();
-  pressed_.clear();
-  for (int i : slow_)
-  {
-    row_.resize(pressed_.size() + 1);
-    for (std::size_t j = 0; j < pressed_.size(); ++j)
-      row_[j] = gram_(i, pressed_[j]);
-    row_[pressed_.size()] = gram_(i, i);
-    if (factor_.append(row_.data()))
-      pressed_.push_back(i);
-  }
+  factorPressed();
   solution_.resize(pressed_.size());
   for (std::size_t k = 0; k < pressed_.size(); ++k)
     solution_[k] = -touches[pressed_[k]].gap;

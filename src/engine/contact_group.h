@@ -65,21 +65,32 @@ private:
   void scale(const ContactScales& scales);
   void findSimultaneous();
   double reflect(const std::vector<int>& rows);
-  double stop(const std::vector<int>& rows, bool pulling);
-  void dropStrongPulls();
+  double stop(const std::vector<int>& rows);
   void clean();
   bool anyElastic(const std::vector<int>& rows) const;
-  void solveRest();
-  void approachingSlowly();
   bool isLocked(const std::vector<int>& rows);
+
+  // capture.cpp
+  void planCapture();
+  void solveRest(const std::vector<int>& candidates);
+  void factorPressed();
+  void solveHolds();
+  void solvePushes();
+  int leastHeld() const;
+  double carryOut();
+  double capture();
+
   void place(Member& member, const Vec2& shift, double turn);
 
-  SymmetricMatrix gram_;
+  SymmetricMatrix gram_, schur_;
   Complementarity solver_;
   Cholesky factor_;
-  std::vector<int> fast_, slow_, pressed_, all_, former_;
-  std::vector<double> rest_speed_, b_, before_, row_, solution_;
-  std::vector<char> hops_;   ///< by touch: opens, and is not held back
+  std::vector<int> all_, fast_, candidates_, pressed_, others_, schur_rows_;
+  std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
+  std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
+  std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest
+  std::vector<double> pushes_;      ///< N s, impulses that keep the others from approaching then
+  std::vector<double> b_, before_, given_, row_, column_, solution_;
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
   struct Size
@@ -88,7 +99,6 @@ private:
   };
   std::vector<Size> sizes_;
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
-  bool pulling_ = true;  ///< the first capture of an event holds back what opens slowly
 };
 
 }  // namespace block_world

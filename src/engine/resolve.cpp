@@ -218,7 +218,7 @@ void World::Engine::report(const Time& time, bool last)
       contact.impulse = impulse;
       contacts.push_back(contact);
     }
-    if (t.impulse > threshold && t.pair != last_pair)
+    if (impulse > threshold && t.pair != last_pair)
     {
       ++statistics.impacts;
       last_pair = t.pair;

@@ -37,6 +37,44 @@ std::pair<int, int> pairOf(const ContactRow& row)
   return std::minmax(row.a, row.b);
 }
 
+/// The faces that meet where corner lies on corner, by their normals from body b to body a.
+struct Corner
+{
+  std::vector<Vec2> normals;
+
+  /// Whether a direction lies between two of them.
+  bool contains(const Vec2& direction) const
+  {
+    bool left = false, right = false;
+    for (const Vec2& normal : normals)
+    {
+      if (normal.dot(direction) <= 0.0)
+        continue;
+      left = left || cross(direction, normal) >= -relative_error;
+      right = right || cross(direction, normal) <= relative_error;
+    }
+    return left && right;
+  }
+};
+
+/// Adds the faces next to the vertex at a point, if there is one that near. Returns how many there are (0 or 1).
+int addCorner(const Outline& outline, const Vec2& point, double near, double sign, Corner& corner)
+{
+  const size_t n = outline.size();
+  for (size_t i = 0; i < n; ++i)
+  {
+    if ((outline[i] - point).norm() > near)
+      continue;
+    for (const size_t start : { (i + n - 1) % n, i })
+    {
+      const Vec2 along = (outline[(start + 1) % n] - outline[start]).normalized();
+      corner.normals.push_back(sign * Vec2(along.y(), -along.x()));
+    }
+    return 1;
+  }
+  return 0;
+}
+
 /// How far a value lies outside a range.
 double excess(double value, double low, double high)
 {
@@ -230,6 +268,8 @@ void Replay::checkRow(const ContactRow& row, const std::vector<State>& states, d
   checks_.unit.add(std::abs(row.normal.norm() - 1.0), relative_error, row.time, row.a, row.b);
   const double limit = scene_.tolerance * (1.0 + 1e-6) + slack + relative_error * std::max(1.0, row.point.norm());
   double distance = 0.0, parting = 0.0;
+  Corner corner;
+  int corners = 0;
   for (const int body : { row.a, row.b })
   {
     const Vec2 outward = body == row.a ? Vec2(-row.normal) : row.normal;  // away from this body, into the other
@@ -244,7 +284,11 @@ void Replay::checkRow(const ContactRow& row, const std::vector<State>& states, d
     const Outline outline = place(scene_.blocks[body].shape, states[body].position, states[body].angle);
     distance = std::max(distance, boundaryDistance(outline, row.point));
     parting = std::max(parting, highest(outline, outward) - level);
+    corners += addCorner(outline, row.point, 2.0 * limit, body == row.a ? -1.0 : 1.0, corner);
   }
+  // Corner on corner the tolerance leaves open which of the faces that meet there parts the bodies.
+  if (corners == 2 && corner.contains(row.normal))
+    parting = 0.0;
   checks_.point.add(distance, limit, row.time, row.a, row.b);
   // A corner within the tolerance of a corner lies that much beside the line through the other one.
   checks_.normal.add(parting, 2.0 * limit, row.time, row.a, row.b);

@@ -159,8 +159,11 @@ void Replay::holdForces(size_t sample)
   for (size_t i = first; i < rows_end_[sample + 1]; ++i)
   {
     const ContactRow& row = run_.contacts[i];
-    if (row.kind != Kind::Impact)
-      rest_pairs_.push_back(std::minmax(row.a, row.b));
+    if (row.kind == Kind::Impact)
+      continue;
+    rest_pairs_.push_back(std::minmax(row.a, row.b));
+    if (scene_.movable(row.a) && scene_.movable(row.b))
+      island_parent_[islandOf(motion_.clusterOf(row.a))] = islandOf(motion_.clusterOf(row.b));
     if (row.kind != Kind::Rest)
       continue;
     for (const int body : { row.a, row.b })
@@ -175,8 +178,6 @@ void Replay::holdForces(size_t sample)
       held_[body].force += force;
       held_[body].torque += cross(row.point - states_[body].position, force);
     }
-    if (scene_.movable(row.a) && scene_.movable(row.b))
-      island_parent_[islandOf(motion_.clusterOf(row.a))] = islandOf(motion_.clusterOf(row.b));
   }
   std::sort(rest_pairs_.begin(), rest_pairs_.end());
 }
@@ -298,7 +299,7 @@ void Replay::land(size_t sample)
       continue;
     const int cluster = motion_.clusterOf(body);
     if (regime(sample, cluster) == Regime::Broken)
-      bound(body, run_.state(sample - 1, body), run_.state(sample, body));
+      bound(body, sample);
     if (regime(sample, cluster) != Regime::Flight)
       continue;
     bring(cluster, end_);
@@ -311,15 +312,32 @@ void Replay::land(size_t sample)
     account(changes[next]);
 }
 
-// Contact forces between the samples are unknown here, but hardly ten times those at the samples: enough to find what
-// is gross.
-void Replay::bound(int body, const State& from, const State& to)
+// Force that keeps what turns in the body's island on its circles: it may be all that presses a contact.
+double Replay::centripetalForce(int body, size_t sample)
 {
+  double force = 0.0;
+  for (size_t i = 0; i < run_.bodies; ++i)
+  {
+    const int other = static_cast<int>(i);
+    if (!scene_.movable(other) || islandOf(motion_.clusterOf(other)) != islandOf(motion_.clusterOf(body)))
+      continue;
+    const double omega = std::max(std::abs(run_.state(sample - 1, other).omega), std::abs(run_.state(sample, other).omega));
+    force += drive_->bodies[i].mass * omega * omega * scene_.blocks[i].shape.radius;
+  }
+  return force;
+}
+
+// Contact forces between the samples are unknown here, but hardly ten times those at the samples and of what turns: enough to find what
+// is gross.
+void Replay::bound(int body, size_t sample)
+{
+  const State &from = run_.state(sample - 1, body), &to = run_.state(sample, body);
   const double h = end_ - begin_, radius = scene_.blocks[body].shape.radius;
   const double mass = drive_->bodies[body].mass, inertia = motion_.inertia(*drive_, body);
   std::vector<Load> applied(run_.bodies);
   motion_.loads(motion_.clusterOf(body), *drive_, states_, applied);
-  const double force = 10.0 * (leaning_[body] + applied[body].force.norm() + std::abs(applied[body].torque) / radius);
+  const double force = 10.0 * (leaning_[body] + applied[body].force.norm() + std::abs(applied[body].torque) / radius +
+                               centripetalForce(body, sample));
   const double speed = from.velocity.norm() + to.velocity.norm() + radius * (std::abs(from.omega) + std::abs(to.omega));
   const double gain = h * force / mass, turn = h * (force * radius + 2.0 * pushed_[body].x() * speed) / inertia;
   const double move = h * (gain + pushed_[body].x() / mass) + scene_.tolerance;

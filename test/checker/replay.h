@@ -72,7 +72,8 @@ private:
   void account(const Change& change);
   void land(size_t sample);
   void compare(int body, const State& wanted, const State& found);
-  void bound(int body, const State& from, const State& to);
+  double centripetalForce(int body, size_t sample);
+  void bound(int body, size_t sample);
   void bring(int cluster, double time);
   int islandOf(int cluster);
   bool known(int body);
