@@ -126,6 +126,18 @@ TEST(Time, InfinityIsLaterThanEverything)
   EXPECT_TRUE((Time() + std::nan("")).isInfinite());
 }
 
+TEST(Time, WholeNanosecondsAddUpToWholeOnes)
+{
+  for (int ms = 0; ms < 10000; ms += 7)
+  {
+    const Time time = Time::fromNanoseconds(ms * std::int64_t{ 1000000 });
+    EXPECT_EQ(time.after(Time()), time);
+    EXPECT_EQ(time.after(Time::fromNanoseconds(4838000001)), Time::fromNanoseconds(4838000001 + ms * std::int64_t{ 1000000 }));
+  }
+  EXPECT_EQ((Time() + 0.5 + half_eps).after(Time::fromSeconds(3.0)), Time::fromSeconds(3.0) + (0.5 + half_eps));
+  EXPECT_TRUE(Time::infinity().after(Time()).isInfinite());
+}
+
 TEST(Time, ComparisonsAgree)
 {
   const Time ascending[] = {

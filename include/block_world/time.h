@@ -81,6 +81,16 @@ public:
     return Time(second, fraction);
   }
 
+  /// The instant that lies this long after another one, as an input does after the start. Whole nanoseconds add up to whole ones.
+  Time after(const Time& start) const
+  {
+    if (isInfinite() || start.isInfinite())
+      return infinity();
+    if (isWhole() && start.isWhole())
+      return fromNanoseconds(nanoseconds() + start.nanoseconds());
+    return Time(start.second_ + second_, start.fraction_) + fraction_;
+  }
+
   /// Span from other to this, in s.
   double operator-(const Time& other) const
   {
@@ -115,6 +125,11 @@ public:
   }
 
 private:
+  bool isWhole() const
+  {
+    return std::abs(second_) < 4000000000 && fromNanoseconds(nanoseconds()) == *this;
+  }
+
   Time(std::int64_t second, double fraction) : second_(second), fraction_(fraction)
   {
   }

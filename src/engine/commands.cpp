@@ -69,9 +69,14 @@ void World::Engine::expire(int body, const Time& time)
   wake(body, time);
 }
 
+Time World::Engine::nextInputTime() const
+{
+  return next_input_ < scene.inputs.size() ? scene.inputs[next_input_].time.after(input_start_) : Time::infinity();
+}
+
 void World::Engine::applyInputs(const Time& time)
 {
-  while (next_input_ < scene.inputs.size() && input_start_ + scene.inputs[next_input_].time.seconds() <= time)
+  while (nextInputTime() <= time)
   {
     const Applied applied = applyAt(scene.inputs[next_input_].command, time);
     if (applied.ok)
@@ -80,7 +85,7 @@ void World::Engine::applyInputs(const Time& time)
       notes.push_back("inputs[" + std::to_string(next_input_) + "] refused: " + applied.reason);
     ++next_input_;
   }
-  promises_.set(0, next_input_ < scene.inputs.size() ? input_start_ + scene.inputs[next_input_].time.seconds() : Time::infinity());
+  promises_.set(0, nextInputTime());
 }
 
 void World::Engine::pickNearest(SpringCommand& command, const Time& time) const

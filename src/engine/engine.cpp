@@ -144,7 +144,7 @@ void World::Engine::start()
   resolveAll(now);
   input_start_ = now;
   next_input_ = 0;
-  promises_.set(0, scene.inputs.empty() ? Time::infinity() : input_start_ + scene.inputs[0].time.seconds());
+  promises_.set(0, nextInputTime());
   restartAccount();
 }
 

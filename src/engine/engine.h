@@ -112,6 +112,7 @@ private:
   struct Handler;
   Applied applyAt(const Command& command, const Time& time, bool check_only = false);
   void expire(int body, const Time& time);
+  Time nextInputTime() const;
   void applyInputs(const Time& time);
   void expiryPromise(int body);
   void wake(int body, const Time& time);
