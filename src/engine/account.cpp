@@ -287,6 +287,8 @@ double World::Engine::overlap() const
   double deepest = 0.0;
   for (const Pair& pair : pairs_)
   {
+    if (pair.a < 0)
+      continue;
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
     const Snapshot now_a = a.at(now), now_b = b.at(now);
     if (!a.shape.vertices.empty() && !b.shape.vertices.empty())

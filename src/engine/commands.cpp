@@ -182,6 +182,7 @@ void World::Engine::rebuild(const Time& time)
     body.island = i;
     islands_[i].bodies.assign(1, i);
   }
+  pairAll();
   resolveAll(time);
   for (int i = 0; i < block_count; ++i)
     if (!bodies[i].fixed)
@@ -380,6 +381,7 @@ struct World::Engine::Handler
     state.velocity = c.velocity;
     state.omega = c.omega;
     engine.putAt(i, state, time);
+    engine.lookAtCell(i, time);
     engine.command_work_ += engine.storedTotal(time) - before;
     const std::vector<int> seeds = engine.seeds_;
     for (int body : seeds)

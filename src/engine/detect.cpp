@@ -68,6 +68,25 @@ double Detector::apart(const Body& a, const Snapshot& now_a, const Body& b, cons
   return std::min(span, firstZero(gap, speed, acceleration - jerk * span));
 }
 
+double Detector::within(const Body& body, const Snapshot& now, const Vec2& low, const Vec2& high, double horizon) const
+{
+  const auto span = [&](double jerk_span) {
+    const double slack = body.arc.jerk > 0.0 ? body.arc.jerk * jerk_span : 0.0;
+    double first = horizon;
+    for (int axis : { 0, 1 })
+    {
+      const double x = now.position[axis], v = now.velocity[axis], a = now.acceleration[axis];
+      first = std::min(first, x > low[axis] ? firstZero(x - low[axis], v, a - slack) : 0.0);
+      first = std::min(first, x < high[axis] ? firstZero(high[axis] - x, -v, -a - slack) : 0.0);
+    }
+    return first;
+  };
+  if (body.arc.jerk == 0.0)
+    return span(0.0);
+  const double reach = std::min(horizon, std::max(2.0 * span(0.0), 1e-3 * horizon));
+  return std::min(reach, span(reach));
+}
+
 /// Bound of |g''| over the horizon for every vertex of one body and every face of the other:
 /// g'' = n.(d'' - alpha perp d - 2 w perp d' - w^2 d), d from the face body's centre to the vertex.
 double Detector::curvature(const View& f, const View& v, double horizon) const

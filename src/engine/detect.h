@@ -57,6 +57,9 @@ public:
   /// Cheap part of the promise: span in s for which the circles (or circle and half-plane) stay apart; negative if they are near.
   double apart(const Body& a, const Snapshot& now_a, const Body& b, const Snapshot& now_b, double horizon) const;
 
+  /// Span in s, at most horizon, for which a body's centre is certified to stay within a box.
+  double within(const Body& body, const Snapshot& now, const Vec2& low, const Vec2& high, double horizon) const;
+
   /// Span in s, at most horizon, for which the pair is certified not to meet; sets pair.contact_due if it meets then.
   double certify(Pair& pair, const View& a, const View& b, const Time& time, double horizon);
 

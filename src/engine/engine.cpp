@@ -45,7 +45,13 @@ void World::Engine::build()
         bodies[end].springs.push_back(static_cast<int>(links_.size()));
     links_.push_back(link);
   }
-  buildPairs();
+  const int count = static_cast<int>(bodies.size());
+  islands_.assign(count, Island());
+  promises_.reset(pairSlot(0));
+  cache_.assign(count, Cached());
+  member_of_.assign(count, -1);
+  detector_.configure(scene.tolerance, resolution_);
+  configureGrid();
 }
 
 void World::Engine::buildBodies()
@@ -92,31 +98,6 @@ void World::Engine::buildBodies()
   resolution_ = 8.0 * (std::nextafter(largest, HUGE_VAL) - largest);
 }
 
-void World::Engine::buildPairs()
-{
-  pairs_.clear();
-  const int count = static_cast<int>(bodies.size());
-  for (int a = 0; a < count; ++a)
-    for (int b = a + 1; b < count; ++b)
-    {
-      if (bodies[a].fixed && bodies[b].fixed)
-        continue;
-      Pair pair;
-      pair.a = a;
-      pair.b = b;
-      bodies[a].pairs.push_back(static_cast<int>(pairs_.size()));
-      bodies[b].pairs.push_back(static_cast<int>(pairs_.size()));
-      pairs_.push_back(pair);
-    }
-  islands_.assign(count, Island());
-  promises_.reset(1 + 2 * count + static_cast<int>(pairs_.size()));
-  cache_.assign(count, Cached());
-  member_of_.assign(count, -1);
-  pair_mark_.assign(pairs_.size(), 0);
-  mark_ = 0;
-  detector_.configure(scene.tolerance, resolution_);
-}
-
 /// Sets the scene's states in motion at now, and begins a new account there.
 void World::Engine::start()
 {
@@ -141,6 +122,7 @@ void World::Engine::start()
     islands_[i].bodies.assign(1, i);
     islands_[i].rests.clear();
   }
+  pairAll();
   resolveAll(now);
   input_start_ = now;
   next_input_ = 0;
@@ -195,7 +177,7 @@ bool World::Engine::stalls(const Time& time, int slot)
   if (++crowd_ < kMost)
     return false;
   const int count = static_cast<int>(bodies.size());
-  const int body = slot == 0 ? 0 : slot < 1 + 2 * count ? (slot - 1) % count : pairs_[slot - 1 - 2 * count].a;
+  const int body = slot == 0 ? 0 : slot < pairSlot(0) ? (slot - 1) % count : pairs_[slot - pairSlot(0)].a;
   statistics.mode = "stalled at '" + bodies[body].name + "', more than 100000 events within 1e-12 s";
   return true;
 }
@@ -219,9 +201,11 @@ void World::Engine::keep(int slot, const Time& time)
       resolve(time);
     }
   }
+  else if (slot < pairSlot(0))
+    lookAtCell(slot - cellSlot(0), time);
   else
   {
-    const int pair = slot - 1 - 2 * count;
+    const int pair = slot - pairSlot(0);
     if (!pairs_[pair].contact_due)
     {
       lookAtPair(pair, time);

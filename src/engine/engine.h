@@ -8,6 +8,7 @@
 #include "contact_group.h"
 #include "detect.h"
 #include "flow.h"
+#include "grid.h"
 #include "promises.h"
 
 namespace block_world
@@ -22,7 +23,7 @@ struct Island
 /// The world behind World: arcs, promises, and what happens when a promise comes due.
 ///
 /// Slots of the promises: the scene's timed inputs, then per body the end of its timed commands, per island the end of its arcs (or a release,
-/// or a vertex that leaves its face), per pair the next look at its gap.
+/// or a vertex that leaves its face), per body the next look at its cell, per pair the next look at its gap.
 class World::Engine
 {
 public:
@@ -54,7 +55,6 @@ private:
   // engine.cpp: building and the main loop
   void build();
   void buildBodies();
-  void buildPairs();
   void start();
   void resolveAll(const Time& time);
   bool stalls(const Time& time, int slot);
@@ -67,10 +67,22 @@ private:
   {
     return 1 + static_cast<int>(bodies.size()) + body;
   }
+  int cellSlot(int body) const
+  {
+    return 1 + 2 * static_cast<int>(bodies.size()) + body;
+  }
   int pairSlot(int pair) const
   {
-    return 1 + 2 * static_cast<int>(bodies.size()) + pair;
+    return 1 + 3 * static_cast<int>(bodies.size()) + pair;
   }
+
+  // neighbours.cpp: which pairs there are
+  void configureGrid();
+  void pairAll();
+  void addPair(int a, int b);
+  void dropPair(int pair);
+  void lookAtCell(int body, const Time& time);
+  void promiseCell(int body, const Time& time);
 
   // resolve.cpp: what happens at an event
   void resolve(const Time& time);
@@ -134,7 +146,9 @@ private:
   double resolution_ = 0.0;
   bool dissipative_ = false;
   std::vector<SpringLink> links_;
-  std::vector<Pair> pairs_;
+  Grid grid_;
+  std::vector<Pair> pairs_;      ///< those not in use have no bodies
+  std::vector<int> free_pairs_;  ///< not in use
   std::vector<Island> islands_;
   Promises promises_;
   Detector detector_;
@@ -159,7 +173,7 @@ private:
   };
   std::vector<Cached> cache_;
   std::vector<int> seeds_, member_of_, group_pairs_, component_, island_members_;
-  std::vector<int> pair_mark_;
+  std::vector<int> pair_mark_, body_mark_, near_;
   int mark_ = 0;
   std::vector<Rest> former_rests_;
   std::vector<Member> island_state_;

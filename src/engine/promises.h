@@ -21,6 +21,15 @@ public:
       heap_[i] = place_[i] = i;
   }
 
+  /// Appends a slot without a promise.
+  void grow()
+  {
+    const int slot = static_cast<int>(times_.size());
+    times_.push_back(Time::infinity());
+    heap_.push_back(slot);
+    place_.push_back(slot);
+  }
+
   void set(int slot, const Time& time)
   {
     const bool earlier = time < times_[slot];

@@ -498,12 +498,18 @@ void World::Engine::continueIsland(int name, const Time& time)
   closeSprings(name, time);
   flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
   for (int body : island.bodies)
+  {
     cache_[body].time = Time::infinity();
+    promiseCell(body, time);
+  }
   promiseIsland(name, time);
 }
 
 void World::Engine::lookAtPairs(const Time& time)
 {
+  for (const Member& m : group_.members)
+    if (!bodies[m.body].fixed)
+      promiseCell(m.body, time);
   for (int index : group_pairs_)
     lookAtPair(index, time);
 }

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry.h"
+
+namespace block_world
+{
+/// Who may meet whom: square cells on several levels.
+///
+/// A body lives on the finest level whose cells it cannot reach across: their size s holds its circle's diameter and the contact shell with an eighth to spare. It
+/// is listed in one cell there and in the cells of the coarser levels that hold that cell. Bodies may meet only if, on the level of the larger
+/// one, their cells are the same or next to each other; and a body keeps its cells until its centre is s/16 outside, so that none goes to and
+/// fro between two of them. Memory is fixed once configured.
+class Grid
+{
+public:
+  /// radii: m, of the bodies' circles, infinite for those that have no place in the grid; shell: m.
+  void configure(const std::vector<double>& radii, double shell);
+
+  /// Lists the body where its centre is. Returns whether that changed its cell.
+  bool place(int body, const Vec2& centre);
+
+  /// Whether two listed bodies may meet before either changes its cell.
+  bool near(int a, int b) const;
+
+  /// All bodies near a listed one.
+  void neighbours(int body, std::vector<int>& found) const;
+
+  /// Where a body's centre may be without a change of its cell.
+  struct Box
+  {
+    Vec2 low, high;
+  };
+  Box keeps(int body) const;
+
+private:
+  struct Cell
+  {
+    int level = 0;
+    std::int64_t x = 0, y = 0;
+    bool operator==(const Cell& other) const
+    {
+      return level == other.level && x == other.x && y == other.y;
+    }
+  };
+  /// One listing of a body; those whose cells hash alike form a list.
+  struct Entry
+  {
+    Cell cell;
+    int body = -1;
+    int next = -1, previous = -1;
+  };
+  struct Home
+  {
+    int level = -1;  ///< -1: not in the grid
+    int first = -1;  ///< its entries, one a level from its own up
+    bool listed = false;
+  };
+  struct Level
+  {
+    double size = 0.0;  ///< m
+    int shift = 0;      ///< cells of this level hold 2^shift of the finest, along each axis
+  };
+
+  const Cell& cell(int body, int level) const
+  {
+    return entries_[homes_[body].first + level - homes_[body].level].cell;
+  }
+  std::size_t bucket(const Cell& cell) const;
+  void link(int entry);
+  void unlink(int entry);
+
+  std::vector<Level> levels_;  ///< those that bodies live on, finest first
+  std::vector<Home> homes_;
+  std::vector<Entry> entries_;
+  std::vector<int> heads_;  ///< by hash of the cell
+};
+
+}  // namespace block_world
