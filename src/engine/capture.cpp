@@ -7,9 +7,14 @@
 
 namespace block_world
 {
-/// Which of the candidates the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces.
+/// Which of the candidates the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces; the
+/// search starts from those that were pressed last.
 void ContactGroup::solveRest(const std::vector<int>& candidates)
 {
+  guess_.clear();
+  for (std::size_t k = 0; k < candidates.size(); ++k)
+    if (touches[candidates[k]].force > 0.0)
+      guess_.push_back(static_cast<int>(k));
   for (Touch& touch : touches)
     touch.force = 0.0;
   pressed_.clear();
@@ -23,7 +28,7 @@ void ContactGroup::solveRest(const std::vector<int>& candidates)
   }
   if (strongest <= 1e-14 * acceleration_scale_)
     return;
-  solver_.solve(gram_, candidates, b_);
+  solver_.solve(gram_, candidates, b_, guess_);
   for (int k : solver_.support())
   {
     pressed_.push_back(candidates[k]);
@@ -136,8 +141,12 @@ void ContactGroup::planCapture()
 {
   candidates_.clear();
   for (int i = 0; i < static_cast<int>(touches.size()); ++i)
-    if (!touches[i].corner && touches[i].gap <= closed_ && std::abs(velocityOf(i)) <= rest_speed_[i])
+  {
+    Touch& t = touches[i];
+    t.force = t.rested ? 1.0 : 0.0;  // whence the search starts
+    if (!t.corner && t.gap <= closed_ && std::abs(velocityOf(i)) <= rest_speed_[i])
       candidates_.push_back(i);
+  }
   for (;;)
   {
     solveRest(candidates_);

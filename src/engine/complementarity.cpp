@@ -6,23 +6,33 @@
 
 namespace block_world
 {
-bool Cholesky::append(const double* row, double share)
+bool Cholesky::append(const double* entries, double share)
 {
   const int n = size_;
   if (lower_.size() < static_cast<std::size_t>((n + 1) * (n + 2) / 2))
-    lower_.resize((n + 1) * (n + 2) / 2 + 64);
-  double pivot = row[n];
-  for (int j = 0; j < n; ++j)
   {
-    double sum = row[j];
-    for (int k = 0; k < j; ++k)
-      sum -= at(n, k) * at(j, k);
-    at(n, j) = sum / at(j, j);
-    pivot -= at(n, j) * at(n, j);
+    lower_.resize((n + 1) * (n + 2) + 64);
+    first_.resize(2 * n + 16);
   }
-  if (!(pivot > share * row[n]))
+  double* l = lower_.data() + n * (n + 1) / 2;
+  int start = 0;
+  while (start < n && entries[start] == 0.0)
+    l[start++] = 0.0;
+  double pivot = entries[n];
+  for (int j = start; j < n; ++j)
+  {
+    const double* other = row(j);
+    const int from = std::max(start, first_[j]);
+    double rest = entries[j];
+    for (int k = from; k < j; ++k)
+      rest -= l[k] * other[k];
+    l[j] = rest / other[j];
+    pivot -= l[j] * l[j];
+  }
+  if (!(pivot > share * entries[n]))
     return false;
-  at(n, n) = std::sqrt(pivot);
+  l[n] = std::sqrt(pivot);
+  first_[n] = start;
   ++size_;
   return true;
 }
@@ -31,15 +41,18 @@ void Cholesky::solve(double* x) const
 {
   for (int i = 0; i < size_; ++i)
   {
-    for (int k = 0; k < i; ++k)
-      x[i] -= at(i, k) * x[k];
-    x[i] /= at(i, i);
+    const double* l = row(i);
+    double rest = x[i];
+    for (int k = first_[i]; k < i; ++k)
+      rest -= l[k] * x[k];
+    x[i] = rest / l[i];
   }
   for (int i = size_ - 1; i >= 0; --i)
   {
-    x[i] /= at(i, i);
-    for (int k = 0; k < i; ++k)
-      x[k] -= at(i, k) * x[i];
+    const double* l = row(i);
+    x[i] /= l[i];
+    for (int k = first_[i]; k < i; ++k)
+      x[k] -= l[k] * x[i];
   }
 }
 
@@ -176,7 +189,42 @@ bool Complementarity::enter(int i)
   return state_[i] == 1;
 }
 
-void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
+/// The guessed rows become passive, less those that would carry a negative load.
+void Complementarity::begin(const std::vector<int>& guess)
+{
+  for (int i : guess)
+    if (state_[i] == 0 && rowOf(static_cast<int>(passive_.size()), i))
+    {
+      passive_.push_back(i);
+      state_[i] = 1;
+    }
+  for (bool negative = true; negative && !passive_.empty();)
+  {
+    solvePassive(x_);
+    int from = -1;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < passive_.size(); ++k)
+    {
+      if (x_[k] > 0.0)
+      {
+        passive_[kept] = passive_[k];
+        x_[kept++] = x_[k];
+        continue;
+      }
+      state_[passive_[k]] = 0;
+      from = from < 0 ? static_cast<int>(k) : from;
+    }
+    negative = from >= 0;
+    passive_.resize(kept);
+    if (negative)
+      refactor(from);
+  }
+  for (std::size_t k = 0; k < passive_.size(); ++k)
+    l_[passive_[k]] = x_[k];
+}
+
+void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b,
+                            const std::vector<int>& guess)
 {
   a_ = &a;
   rows_ = &rows;
@@ -187,6 +235,7 @@ void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& ro
   passive_.clear();
   support_.clear();
   factor_.clear();
+  begin(guess);
   double scale = 0.0;
   for (double value : b)
     scale = std::max(scale, std::abs(value));

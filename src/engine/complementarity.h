@@ -4,7 +4,8 @@
 
 namespace block_world
 {
-/// Cholesky factor of a growing symmetric positive definite matrix, row by row.
+/// Cholesky factor of a growing symmetric positive definite matrix, row by row. Zeros at the beginning of a row stay zero in the factor and are
+/// skipped (skyline storage; George & Liu 1981, ch. 4): bodies that touch only their neighbours make narrow rows.
 class Cholesky
 {
 public:
@@ -28,17 +29,14 @@ public:
   void solve(double* x) const;
 
 private:
-  double& at(int i, int j)
+  const double* row(int i) const
   {
-    return lower_[i * (i + 1) / 2 + j];
-  }
-  double at(int i, int j) const
-  {
-    return lower_[i * (i + 1) / 2 + j];
+    return lower_.data() + i * (i + 1) / 2;
   }
 
   int size_ = 0;
   std::vector<double> lower_;  ///< rows of the lower triangle, one after the other
+  std::vector<int> first_;     ///< by row: its first entry that is not zero
 };
 
 /// Dense symmetric matrix that keeps its memory.
@@ -75,8 +73,9 @@ private:
 class Complementarity
 {
 public:
-  /// rows: indices into A; b: one value per row. The result is read from value() and support().
-  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b);
+  /// rows: indices into A; b: one value per row; guess: positions within rows that may carry load, from which the search starts. The result is
+  /// read from value() and support().
+  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& guess = {});
 
   /// l, one value per row of the last solve.
   const std::vector<double>& value() const
@@ -93,6 +92,7 @@ private:
   double gradient(int i, double& magnitude) const;
   bool enter(int i);
   void settle();
+  void begin(const std::vector<int>& guess);
   void refactor(int from);
   void solvePassive(std::vector<double>& x);
   bool rowOf(int position, int candidate);

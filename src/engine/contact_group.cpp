@@ -49,7 +49,7 @@ void ContactGroup::prepare()
 {
   const int n = static_cast<int>(touches.size());
   gram_.resize(n);
-  sizes_.assign(members.size(), Size());
+  sizes_.resize(members.size());
   for (int i = 0; i < n; ++i)
   {
     for (int j = 0; j <= i; ++j)
@@ -70,8 +70,8 @@ void ContactGroup::scale(const ContactScales& scales)
     acceleration_scale_ = std::max(acceleration_scale_, m.acceleration.norm() + (std::abs(m.alpha) + m.omega * m.omega) * gyration);
     speed = std::max(speed, m.velocity.norm() + std::abs(m.omega) * gyration);
   }
-  // Rounding of a velocity that is a difference of larger ones.
-  noise_ = 1e-13 * speed;
+  // Rounding of a velocity that is a difference of larger ones, those before the event included.
+  noise_ = std::max(noise_, 1e-13 * speed);
   // A bounce at speed v under the acceleration a rises v^2 / 2a: below sqrt(8 a delta) never more than 4 delta, so that the rest of the
   // decaying series of bounces is replaced by its limit. A contact that loses nothing has no such limit; there only what the
   // coordinates cannot resolve is taken away.

@@ -29,6 +29,8 @@ public:
   {
     members.clear();
     touches.clear();
+    sizes_.clear();
+    noise_ = 0.0;
   }
 
   /// Rows and Gram matrix A = J M^-1 J^T of the present touches, their approach velocities.
@@ -85,7 +87,7 @@ private:
   SymmetricMatrix gram_, schur_;
   Complementarity solver_;
   Cholesky factor_;
-  std::vector<int> all_, fast_, candidates_, pressed_, others_, schur_rows_;
+  std::vector<int> all_, fast_, candidates_, pressed_, others_, schur_rows_, guess_;
   std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
   std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
   std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest

@@ -175,7 +175,12 @@ void World::Engine::findTouches(const Time& time)
       velocity_decided_ = velocity_decided_ || finder_.velocityDecided();
       join(other, time);
       for (std::size_t t = before; t < group_.touches.size(); ++t)
-        group_.touches[t].pair = index;
+      {
+        Touch& touch = group_.touches[t];
+        touch.pair = index;
+        for (const Pair::Resting& r : pair.resting)
+          touch.rested = touch.rested || (r.face_of_a == (touch.b == pair.a) && r.face == touch.face && r.vertex == touch.vertex);
+      }
     }
   }
   for (Touch& touch : group_.touches)
@@ -206,9 +211,7 @@ void World::Engine::report(const Time& time, bool last)
   };
   for (const Touch& t : group_.touches)
   {
-    bool fresh = t.active;
-    for (const Rest& former : former_rests_)
-      fresh = fresh && !same(former.touch, t);
+    const bool fresh = t.active && !t.rested;
     const double impulse = t.impulse + t.capture;
     const double threshold = group_.noise() / contactGram(t, t, group_.members);
     const bool hit = std::abs(impulse) > threshold;

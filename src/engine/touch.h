@@ -40,6 +40,7 @@ struct Touch
   double impulse = 0.0;   ///< N s, of reflections
   double capture = 0.0;   ///< N s, of the inelastic end
   double force = 0.0;     ///< N
+  bool rested = false;    ///< carried force before the event
   bool active = false;    ///< carries force: a constraint of the next arcs
 };
 
