@@ -36,96 +36,92 @@ void ContactGroup::solveRest(const std::vector<int>& candidates)
   }
 }
 
+/// Appends the last of the rows to the factor of the others. Refuses one that depends on them.
+bool ContactGroup::appendRow(const std::vector<int>& rows)
+{
+  row_.resize(rows.size());
+  for (std::size_t j = 0; j < rows.size(); ++j)
+    row_[j] = gram_(rows.back(), rows[j]);
+  return factor_.append(row_.data());
+}
+
 /// Cholesky factor of the pressed rows; those that depend on the former ones by rounding are dropped.
 void ContactGroup::factorPressed()
 {
   factor_.clear();
-  for (std::size_t k = 0; k < pressed_.size();)
+  stopped_.swap(pressed_);
+  pressed_.clear();
+  for (int i : stopped_)
   {
-    row_.resize(k + 1);
-    for (std::size_t j = 0; j <= k; ++j)
-      row_[j] = gram_(pressed_[k], pressed_[j]);
-    if (factor_.append(row_.data()))
-      ++k;
-    else
-      pressed_.erase(pressed_.begin() + k);
+    pressed_.push_back(i);
+    if (!appendRow(pressed_))
+      pressed_.pop_back();
   }
 }
 
-/// The impulses at the pressed touches that make their velocities, and what the others' pushes change in them, vanish:
-/// A_PP j = -(w_P + A_PO l).
+/// The impulses at the pressed touches that make their velocities vanish: A_PP j = -w_P.
 void ContactGroup::solveHolds()
 {
   holds_.resize(pressed_.size());
   for (std::size_t k = 0; k < pressed_.size(); ++k)
-  {
     holds_[k] = -velocityOf(pressed_[k]);
-    for (std::size_t o = 0; o < others_.size(); ++o)
-      if (pushes_[o] != 0.0)
-        holds_[k] -= gram_(pressed_[k], others_[o]) * pushes_[o];
-  }
   factor_.solve(holds_.data());
 }
 
-/// With the pressed touches held, no other closed one may approach: l >= 0, w_O + A_OP j + A_OO l >= 0, complementary; with j from solveHolds a
-/// problem in the Schur complement A_OO - A_OP A_PP^-1 A_PO.
-void ContactGroup::solvePushes()
+/// The impulses by which the pressed touches end at rest and no other closed one approaches: w_P + (A j)_P = 0; j_O >= 0, w_O + (A j)_O >= 0,
+/// complementary.
+void ContactGroup::solvePlan()
 {
+  const int held = static_cast<int>(pressed_.size()), n = static_cast<int>(touches.size());
   others_.clear();
+  plan_ = pressed_;
+  for (int i = 0; i < n; ++i)
+    if (touches[i].gap <= closed_ && std::find(pressed_.begin(), pressed_.end(), i) == pressed_.end())
+      others_.push_back(i);
+  plan_.insert(plan_.end(), others_.begin(), others_.end());
   b_.clear();
-  bool approaches = false;
-  for (int i = 0; i < static_cast<int>(touches.size()); ++i)
+  for (int i : plan_)
+    b_.push_back(velocityOf(i));
+  solver_.solveHeld(gram_, plan_, b_, held, noise_);
+  holds_.assign(solver_.value().begin(), solver_.value().begin() + held);
+  pushes_.assign(solver_.value().begin() + held, solver_.value().end());
+}
+
+/// By member, the speed that the plan takes or gives, of rotation at the radius of gyration: |dv|^2 + (I/m) domega^2.
+void ContactGroup::plannedSpeeds()
+{
+  changes_.assign(members.size(), Change());
+  for (std::size_t k = 0; k < plan_.size(); ++k)
   {
-    if (touches[i].gap > closed_ || std::find(pressed_.begin(), pressed_.end(), i) != pressed_.end())
-      continue;
-    double speed = velocityOf(i);
-    for (std::size_t k = 0; k < pressed_.size(); ++k)
-      speed += gram_(i, pressed_[k]) * holds_[k];
-    others_.push_back(i);
-    b_.push_back(std::abs(speed) <= noise_ ? 0.0 : speed);
-    approaches = approaches || speed < -noise_;
+    const double impulse = k < holds_.size() ? holds_[k] : pushes_[k - holds_.size()];
+    const Touch& t = touches[plan_[k]];
+    const Member &a = members[t.member_a], &b = members[t.member_b];
+    changes_[t.member_a].velocity += impulse * a.inverse_mass * t.normal;
+    changes_[t.member_a].omega += impulse * a.inverse_inertia * cross(t.arm, t.normal);
+    changes_[t.member_b].velocity -= impulse * b.inverse_mass * t.normal;
+    changes_[t.member_b].omega -= impulse * b.inverse_inertia * cross(t.reach, t.normal);
   }
-  pushes_.assign(others_.size(), 0.0);
-  if (!approaches)
-    return;
-  const int n = static_cast<int>(others_.size()), p = static_cast<int>(pressed_.size());
-  schur_.resize(n);
-  schur_rows_.resize(n);
-  for (int j = 0; j < n; ++j)
-  {
-    schur_rows_[j] = j;
-    column_.resize(p);
-    for (int k = 0; k < p; ++k)
-      column_[k] = gram_(pressed_[k], others_[j]);
-    factor_.solve(column_.data());
-    for (int i = 0; i < n; ++i)
-    {
-      double entry = gram_(others_[i], others_[j]);
-      for (int k = 0; k < p; ++k)
-        entry -= gram_(others_[i], pressed_[k]) * column_[k];
-      // What the held touches determine is a sum that cancels: zero, and not rounding, which might be negative.
-      schur_(i, j) = i == j && entry < 1e-11 * gram_(others_[i], others_[i]) ? 0.0 : entry;
-    }
-  }
-  solver_.solve(schur_, schur_rows_, b_);
-  pushes_ = solver_.value();
-  solveHolds();
+  for (std::size_t m = 0; m < members.size(); ++m)
+    if (members[m].inverse_mass > 0.0)
+      changes_[m].speed = std::sqrt(changes_[m].velocity.squaredNorm() +
+                                    members[m].inverse_mass / members[m].inverse_inertia * changes_[m].omega * changes_[m].omega);
 }
 
 /// Position of the pressed touch that can least be held, -1 if all can.
 ///
-/// The impulses j = -A^-1 w take the kinetic energy 1/2 j'A j = -1/2 sum j_i w_i: touch i has the share 1/2 |j_i w_i| of it, and left alone would hop
-/// that energy over its force f_i high. Hops lower than four tolerances are replaced by their limit, rest; so are arrivals that would end in such
-/// hops. For a single touch, or flat on flat: w^2 <= 8 delta a.
-int ContactGroup::leastHeld() const
+/// Left alone the touch would hop, or come and hop. Its force f_i needs the time |j_i| / f_i to give the impulse j_i that brings it to rest, so that
+/// the hop lasts twice that and moves its bodies, whose speeds the plan changes by u, by u |j_i| / (2 f_i). What moves nothing by more than four
+/// tolerances is replaced by its limit, rest. For a single touch, or flat on flat: w^2 <= 8 delta a.
+int ContactGroup::leastHeld()
 {
+  plannedSpeeds();
   int least = -1;
   double most = 1.0;
   for (std::size_t k = 0; k < pressed_.size(); ++k)
   {
-    const int i = pressed_[k];
-    const double speed = std::abs(velocityOf(i));
-    const double over = std::abs(holds_[k]) * speed / (8.0 * depth_[i] * touches[i].force);
+    const Touch& t = touches[pressed_[k]];
+    const double speed = std::max(changes_[t.member_a].speed, changes_[t.member_b].speed);
+    const double over = std::abs(holds_[k]) * speed / (8.0 * depth_[pressed_[k]] * t.force);
     if (speed > noise_ && over > most)
     {
       most = over;
@@ -151,9 +147,7 @@ void ContactGroup::planCapture()
   {
     solveRest(candidates_);
     factorPressed();
-    others_.clear();
-    solveHolds();
-    solvePushes();
+    solvePlan();
     const int least = leastHeld();
     if (least < 0)
       return;
@@ -168,22 +162,19 @@ double ContactGroup::carryOut()
   given_.assign(touches.size(), 0.0);
   for (std::size_t i = 0; i < touches.size(); ++i)
     before_[i] = velocityOf(static_cast<int>(i));
+  const auto give = [this](int i, double impulse) {
+    push(i, impulse);
+    given_[i] += impulse;
+  };
   for (std::size_t k = 0; k < others_.size(); ++k)
     if (pushes_[k] != 0.0)
-    {
-      push(others_[k], pushes_[k]);
-      given_[others_[k]] = pushes_[k];
-    }
-  others_.clear();
-  for (int pass = 0; pass < 2; ++pass)
-  {
-    solveHolds();
-    for (std::size_t k = 0; k < pressed_.size(); ++k)
-    {
-      push(pressed_[k], holds_[k]);
-      given_[pressed_[k]] += holds_[k];
-    }
-  }
+      give(others_[k], pushes_[k]);
+  for (std::size_t k = 0; k < pressed_.size(); ++k)
+    give(pressed_[k], holds_[k]);
+  factorPressed();
+  solveHolds();  // what rounding left
+  for (std::size_t k = 0; k < pressed_.size(); ++k)
+    give(pressed_[k], holds_[k]);
   double loss = 0.0;
   for (std::size_t i = 0; i < touches.size(); ++i)
     if (given_[i] != 0.0)
@@ -192,6 +183,14 @@ double ContactGroup::carryOut()
       loss -= 0.5 * given_[i] * (before_[i] + velocityOf(static_cast<int>(i)));
     }
   return loss;
+}
+
+double ContactGroup::holdPressed()
+{
+  factorPressed();
+  others_.clear();
+  solveHolds();
+  return carryOut();
 }
 
 /// Carries out the plan and makes active what is pressed at the velocities that come of it. Returns the energy lost.
@@ -208,10 +207,7 @@ double ContactGroup::capture()
   }
   solveRest(candidates_);
   if (pressed_ != held)
-  {
-    factorPressed();
-    loss += carryOut();
-  }
+    loss += holdPressed();
   for (int i : pressed_)
     touches[i].active = true;
   return loss;
@@ -224,9 +220,7 @@ double ContactGroup::holdActive()
   for (std::size_t i = 0; i < touches.size(); ++i)
     if (touches[i].active)
       pressed_.push_back(static_cast<int>(i));
-  factorPressed();
-  others_.clear();
-  const double loss = carryOut();
+  const double loss = holdPressed();
   clean();
   return loss;
 }

@@ -6,6 +6,35 @@
 
 namespace block_world
 {
+namespace
+{
+/// Share of the diagonal below which a pivot is looked at closely.
+constexpr double kDoubtful = 1e-4;
+}  // namespace
+
+/// With z = -A^-1 a the combination of rows that comes nearest to the new one, the largest z_k^2 A_kk: the new pivot p adds z_k^2 / p to entry k of the
+/// inverse, so that p against this is what the new row does to the condition of the others.
+double Cholesky::heaviest(const double* l)
+{
+  z_.assign(l, l + size_);
+  for (int i = size_ - 1; i >= 0; --i)
+  {
+    const double* other = row(i);
+    z_[i] /= other[i];
+    for (int k = first_[i]; k < i; ++k)
+      z_[k] -= other[k] * z_[i];
+  }
+  double most = 0.0;
+  for (int i = 0; i < size_; ++i)
+  {
+    double diagonal = 0.0;
+    for (int k = first_[i]; k <= i; ++k)
+      diagonal += row(i)[k] * row(i)[k];
+    most = std::max(most, z_[i] * z_[i] * diagonal);
+  }
+  return most;
+}
+
 bool Cholesky::append(const double* entries, double share)
 {
   const int n = size_;
@@ -29,7 +58,7 @@ bool Cholesky::append(const double* entries, double share)
     l[j] = rest / other[j];
     pivot -= l[j] * l[j];
   }
-  if (!(pivot > share * entries[n]))
+  if (!(pivot > share * std::max(entries[n], pivot < kDoubtful * entries[n] ? heaviest(l) : 0.0)))
     return false;
   l[n] = std::sqrt(pivot);
   first_[n] = start;
@@ -126,7 +155,7 @@ void Complementarity::settle()
     solvePassive(x_);
     double step = 1.0;
     int blocking = -1;
-    for (std::size_t k = 0; k < passive_.size(); ++k)
+    for (std::size_t k = held_; k < passive_.size(); ++k)
     {
       const double l = l_[passive_[k]];
       if (x_[k] <= 0.0 && l / (l - x_[k]) < step)
@@ -166,7 +195,7 @@ bool Complementarity::enter(int i)
   factor_.solve(x_.data());  // z_P = -A_PP^-1 A_Pi
   double step = std::numeric_limits<double>::infinity();
   int blocking = -1;
-  for (int k = 0; k < n; ++k)
+  for (int k = held_; k < n; ++k)
     if (x_[k] > 0.0 && l_[passive_[k]] / x_[k] < step)
     {
       step = l_[passive_[k]] / x_[k];
@@ -178,7 +207,7 @@ bool Complementarity::enter(int i)
     return false;
   }
   for (int k = 0; k < n; ++k)
-    l_[passive_[k]] = std::max(0.0, l_[passive_[k]] - step * x_[k]);
+    l_[passive_[k]] = k < held_ ? l_[passive_[k]] - step * x_[k] : std::max(0.0, l_[passive_[k]] - step * x_[k]);
   l_[passive_[blocking]] = 0.0;
   state_[passive_[blocking]] = 2;
   passive_.erase(passive_.begin() + blocking);
@@ -189,15 +218,31 @@ bool Complementarity::enter(int i)
   return state_[i] == 1;
 }
 
-/// The guessed rows become passive, less those that would carry a negative load.
-void Complementarity::begin(const std::vector<int>& guess)
+void Complementarity::start(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
 {
+  a_ = &a;
+  rows_ = &rows;
+  b_ = &b;
+  const std::size_t n = rows.size();
+  l_.assign(n, 0.0);
+  state_.assign(n, 0);
+  passive_.clear();
+  held_ = 0;
+  support_.clear();
+  factor_.clear();
+}
+
+void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b,
+                            const std::vector<int>& guess)
+{
+  start(a, rows, b);
   for (int i : guess)
-    if (state_[i] == 0 && rowOf(static_cast<int>(passive_.size()), i))
+    if (rowOf(static_cast<int>(passive_.size()), i))
     {
       passive_.push_back(i);
       state_[i] = 1;
     }
+  // What would carry a negative load starts at zero.
   for (bool negative = true; negative && !passive_.empty();)
   {
     solvePassive(x_);
@@ -221,21 +266,30 @@ void Complementarity::begin(const std::vector<int>& guess)
   }
   for (std::size_t k = 0; k < passive_.size(); ++k)
     l_[passive_[k]] = x_[k];
+  search(0.0);
 }
 
-void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b,
-                            const std::vector<int>& guess)
+void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, int held, double noise)
 {
-  a_ = &a;
-  rows_ = &rows;
-  b_ = &b;
-  const int n = static_cast<int>(rows.size());
-  l_.assign(n, 0.0);
-  state_.assign(n, 0);
-  passive_.clear();
-  support_.clear();
-  factor_.clear();
-  begin(guess);
+  start(a, rows, b);
+  for (int i = 0; i < held; ++i)
+    if (rowOf(static_cast<int>(passive_.size()), i))
+    {
+      passive_.push_back(i);
+      state_[i] = 1;
+    }
+    else
+      state_[i] = 2;
+  held_ = static_cast<int>(passive_.size());
+  settle();
+  search(noise);
+}
+
+/// Takes in what is most negative until nothing is.
+void Complementarity::search(double noise)
+{
+  const std::vector<double>& b = *b_;
+  const int n = static_cast<int>(rows_->size());
   double scale = 0.0;
   for (double value : b)
     scale = std::max(scale, std::abs(value));
@@ -250,7 +304,7 @@ void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& ro
         continue;
       double magnitude;
       const double g = gradient(i, magnitude);
-      if (g < lowest && g < -1e-13 * scale - 1e-14 * magnitude)
+      if (g < lowest && g < -std::max(noise, 1e-13 * scale) - 1e-14 * magnitude)
       {
         lowest = g;
         best = i;
@@ -264,7 +318,7 @@ void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& ro
       if (state_[best] == 0)
         state_[best] = 2;  // entered and left at once: rounding
       else
-        for (int i = 0; i < n; ++i)
+        for (int i = held_; i < n; ++i)
           if (state_[i] == 2)
             state_[i] = 0;
     }

@@ -17,8 +17,8 @@ public:
   {
     return size_;
   }
-  /// Appends row[0..size()] (the last is the diagonal). Refuses, returning false, a row that depends on the former ones:
-  /// one whose pivot falls below that share of its diagonal.
+  /// Appends row[0..size()] (the last is the diagonal). Refuses, returning false, a row that depends on the former ones: one whose pivot falls
+  /// below that share of its diagonal, or that would magnify rounding by more than its inverse in the loads of former ones.
   bool append(const double* row, double share = 1e-11);
   /// Keeps the first rows only.
   void truncate(int size)
@@ -29,6 +29,7 @@ public:
   void solve(double* x) const;
 
 private:
+  double heaviest(const double* l);
   const double* row(int i) const
   {
     return lower_.data() + i * (i + 1) / 2;
@@ -36,6 +37,7 @@ private:
 
   int size_ = 0;
   std::vector<double> lower_;  ///< rows of the lower triangle, one after the other
+  std::vector<double> z_;
   std::vector<int> first_;     ///< by row: its first entry that is not zero
 };
 
@@ -73,9 +75,19 @@ private:
 class Complementarity
 {
 public:
-  /// rows: indices into A; b: one value per row; guess: positions within rows that may carry load, from which the search starts. The result is
-  /// read from value() and support().
-  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& guess = {});
+  /// rows: indices into A; b: one value per row. The result is read from value() and support().
+  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
+  {
+    start(a, rows, b);
+    search(0.0);
+  }
+
+  /// The same; guess: positions within rows that may carry load, from which the search starts.
+  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& guess);
+
+  /// The first rows, `held` of them and independent, are equations instead: (A l + b)_i = 0 with l_i of any sign. What is above -noise does not
+  /// count as negative.
+  void solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, int held, double noise);
 
   /// l, one value per row of the last solve.
   const std::vector<double>& value() const
@@ -89,10 +101,11 @@ public:
   }
 
 private:
+  void start(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b);
+  void search(double noise);
   double gradient(int i, double& magnitude) const;
   bool enter(int i);
   void settle();
-  void begin(const std::vector<int>& guess);
   void refactor(int from);
   void solvePassive(std::vector<double>& x);
   bool rowOf(int position, int candidate);
@@ -102,6 +115,7 @@ private:
   const std::vector<double>* b_ = nullptr;
   Cholesky factor_;
   std::vector<int> passive_;
+  int held_ = 0;             ///< the first so many passive rows stay passive
   std::vector<char> state_;  ///< 0 at zero, 1 passive, 2 redundant for now
   std::vector<double> l_, x_, residual_, row_;
   std::vector<int> support_;

@@ -75,24 +75,27 @@ private:
   // capture.cpp
   void planCapture();
   void solveRest(const std::vector<int>& candidates);
+  bool appendRow(const std::vector<int>& rows);
   void factorPressed();
   void solveHolds();
-  void solvePushes();
-  int leastHeld() const;
+  void solvePlan();
+  void plannedSpeeds();
+  int leastHeld();
   double carryOut();
+  double holdPressed();
   double capture();
 
   void place(Member& member, const Vec2& shift, double turn);
 
-  SymmetricMatrix gram_, schur_;
+  SymmetricMatrix gram_;
   Complementarity solver_;
   Cholesky factor_;
-  std::vector<int> all_, fast_, candidates_, pressed_, others_, schur_rows_, guess_;
+  std::vector<int> all_, fast_, candidates_, pressed_, others_, plan_, stopped_, guess_;
   std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
   std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
   std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest
   std::vector<double> pushes_;      ///< N s, impulses that keep the others from approaching then
-  std::vector<double> b_, before_, given_, row_, column_, solution_;
+  std::vector<double> b_, before_, given_, row_, solution_;
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
   struct Size
@@ -100,6 +103,13 @@ private:
     double x = 0.0, y = 0.0, omega = 0.0;
   };
   std::vector<Size> sizes_;
+  /// Of a member by the plan.
+  struct Change
+  {
+    Vec2 velocity = Vec2::Zero();
+    double omega = 0.0, speed = 0.0;
+  };
+  std::vector<Change> changes_;
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
 };
 
