@@ -85,8 +85,9 @@ struct Statistics
 class World
 {
 public:
-  /// Throws SceneError; the scene is completed first (completeScene).
-  explicit World(Scene scene);
+  /// The scene, set in motion at an instant: its timed inputs and its account count from there. Throws SceneError; the scene is
+  /// completed first (completeScene).
+  explicit World(Scene scene, const Time& start = Time());
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;

@@ -5,7 +5,7 @@
 
 namespace block_world
 {
-World::Engine::Engine(Scene loaded) : loaded_(std::move(loaded))
+World::Engine::Engine(Scene loaded, const Time& begin) : now(begin), loaded_(std::move(loaded))
 {
   notes = completeScene(loaded_);
   scene = loaded_;

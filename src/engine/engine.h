@@ -27,7 +27,7 @@ struct Island
 class World::Engine
 {
 public:
-  explicit Engine(Scene scene);
+  Engine(Scene scene, const Time& start);
 
   Time advance(Time target, std::int64_t max_events);
   Applied apply(const Command& command);

@@ -4,7 +4,7 @@
 
 namespace block_world
 {
-World::World(Scene scene) : engine_(std::make_unique<Engine>(std::move(scene)))
+World::World(Scene scene, const Time& start) : engine_(std::make_unique<Engine>(std::move(scene), start))
 {
 }
 World::~World() = default;

@@ -63,6 +63,12 @@ struct Payload
     input.kind = msg::Input::SPAWN;
     Scene scene;
     scene.blocks.push_back(command.block);
+    // One that suits the block, whatever its size: the text must load.
+    double size = 0.0;
+    for (const Eigen::Vector2d& vertex : command.block.vertices)
+      size = std::max(size, vertex.norm());
+    if (size > 0.0)
+      scene.tolerance = 1e-6 * size;
     input.text = writeScene(scene);
   }
   void operator()(const DeleteCommand& command)
@@ -120,6 +126,12 @@ SpringCommand toCommand(const msg::SpringForce& message, double default_stiffnes
 WrenchCommand toCommand(const geometry_msgs::Wrench& message, const std::string& body)
 {
   return { body, Eigen::Vector2d(message.force.x, message.force.y), message.torque.z };
+}
+
+SetStateCommand toCommand(const msg::BodyState& message)
+{
+  return { message.name, Eigen::Vector2d(message.x, message.y), message.angle,
+           Eigen::Vector2d(message.vx, message.vy), message.omega };
 }
 
 std::string bodyOfFrame(const World& world, const std::string& frame, const std::string& prefix)

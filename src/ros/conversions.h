@@ -19,6 +19,8 @@ SpringCommand toCommand(const msg::SpringForce& message, double default_stiffnes
 /// What of the wrench lies out of the plane is left out.
 WrenchCommand toCommand(const geometry_msgs::Wrench& message, const std::string& body);
 
+SetStateCommand toCommand(const msg::BodyState& message);
+
 /// Name of the block whose TF frame this is, given with or without the prefix and with or without a leading slash; the
 /// frame without prefix where no block fits.
 std::string bodyOfFrame(const World& world, const std::string& frame, const std::string& prefix);

@@ -8,8 +8,12 @@
 
 #include <block_world/BodyStates.h>
 #include <block_world/Contacts.h>
+#include <block_world/DeleteBlock.h>
 #include <block_world/Energy.h>
 #include <block_world/Input.h>
+#include <block_world/LoadScene.h>
+#include <block_world/SetState.h>
+#include <block_world/SpawnBlock.h>
 #include <block_world/SpringForce.h>
 #include <block_world/Step.h>
 #include <block_world/Thrust.h>
@@ -24,7 +28,11 @@ using block_world::Contact;
 using block_world::Energy;
 using block_world::BodyStates;
 using block_world::Contacts;
+using block_world::DeleteBlock;
 using block_world::Input;
+using block_world::LoadScene;
+using block_world::SetState;
+using block_world::SpawnBlock;
 using block_world::SpringForce;
 using block_world::Step;
 using block_world::Thrust;

@@ -1,6 +1,7 @@
 #include "node.h"
 
 #include <algorithm>
+#include <csignal>
 #include <limits>
 #include <utility>
 
@@ -15,6 +16,8 @@ constexpr std::int64_t LONGEST_SLICE = 100 * MS;
 constexpr std::int64_t LATE_LIMIT = 250 * MS;     // what is later than this is not caught up with
 constexpr std::int64_t DISPLAY_PERIOD = 33 * MS;  // at least 30 Hz, however slow the motion
 constexpr std::int64_t EVENTS_AT_ONCE = 20;       // a look at the clock costs little next to this many
+
+volatile std::sig_atomic_t end_asked = 0;
 
 /// The first whole ns not before a time.
 std::int64_t wholeNanoseconds(const Time& time)
@@ -32,17 +35,19 @@ ros::NodeHandle onQueue(ros::NodeHandle handle, ros::CallbackQueue& queue)
 
 }  // namespace
 
-Node::Node(const ros::NodeHandle& handle, const Parameters& parameters, Scene scene)
+Node::Node(const ros::NodeHandle& handle, const Parameters& parameters, const SceneSource& source, Scene scene)
   : handle_(onQueue(handle, callbacks_))
   , parameters_(parameters)
+  , source_(source)
   , world_(std::move(scene))
   , time_(handle_, parameters.publish_clock)
   , publishers_(handle_, world_, parameters.frame_id, parameters.tf_prefix)
   , pacer_(time_.follows() || parameters.real_time_factor == 0.0 ? 1.0 : parameters.real_time_factor)
   , schedule_(parameters.publish_rate)
+  , diagnostics_(handle_)
   , paused_(parameters.paused)
 {
-  ROS_INFO_STREAM("scene " << parameters_.scene << ": " << world_.bodyCount() << " blocks; " << time_.description()
+  ROS_INFO_STREAM("scene " << source_.name << ": " << world_.bodyCount() << " blocks; " << time_.description()
                            << (paused_ ? "; paused" : ""));
   tellNotes();
 }
@@ -52,15 +57,25 @@ void Node::tellNotes()
 {
   const std::vector<std::string>& notes = world_.notes();
   for (std::size_t i = std::min(notes_told_, notes.size()); i < notes.size(); ++i)
-    ROS_WARN_STREAM(parameters_.scene << ": " << notes[i]);
+    ROS_WARN_STREAM(source_.name << ": " << notes[i]);
   notes_told_ = notes.size();
+}
+
+void Node::end()
+{
+  end_asked = 1;
+}
+
+bool Node::isEnding()
+{
+  return end_asked != 0 || !ros::ok();
 }
 
 void Node::run()
 {
-  while (ros::ok() && !start())
+  while (!isEnding() && !start())
     ros::WallDuration(0.01).sleep();
-  while (ros::ok())
+  while (!isEnding())
   {
     callbacks_.callAvailable(patience());
     catchUp();
@@ -79,6 +94,7 @@ bool Node::start()
   publishers_.setOrigin(time_.origin());
   publishers_.publishScene(now_ns_);
   subscribe();
+  serveScene();
   setPaused(paused_);
   publishState();
   return true;
@@ -130,7 +146,7 @@ void Node::catchUp()
 /// Advances towards target, publishing the states that are due on the way; stops early at the deadline.
 void Node::advance(std::int64_t target, std::int64_t deadline)
 {
-  while ((now_ns_ < target || !isSettled()) && ros::ok())
+  while ((now_ns_ < target || !isSettled()) && !isEnding())
   {
     const std::int64_t goal = std::min(target, schedule_.after(now_ns_));
     advanceWorld(std::max(goal, wholeNanoseconds(world_.now())), deadline);
@@ -152,7 +168,7 @@ void Node::advanceWorld(std::int64_t goal, std::int64_t deadline)
   while (world_.advance(Time::fromNanoseconds(goal), EVENTS_AT_ONCE) < Time::fromNanoseconds(goal))
   {
     const std::int64_t now = steadyNow();
-    if (!ros::ok() || now >= deadline + LONGEST_SLICE)
+    if (isEnding() || now >= deadline + LONGEST_SLICE)
       return;
     if (now >= deadline)
       goal = std::min(goal, wholeNanoseconds(world_.now()));
@@ -165,6 +181,17 @@ void Node::setPaused(bool paused)
   paused_ = paused;
   publishers_.setPaused(paused);
   pacer_.anchor(now_ns_, time_.now());
+  diagnostics_.restart(now_ns_, steadyNow());
+}
+
+void Node::setRealTimeFactor(double factor)
+{
+  const bool was_paced = !paused_ && parameters_.real_time_factor > 0.0;
+  parameters_.real_time_factor = factor;
+  pacer_.setFactor(factor > 0.0 ? factor : 1.0, time_.now());
+  if (!was_paced)
+    pacer_.anchor(now_ns_, time_.now());
+  diagnostics_.restart(now_ns_, steadyNow());
 }
 
 void Node::publishState()
@@ -189,6 +216,8 @@ void Node::publishDue()
     overlay_changed_ = false;
     overlay_sent_ = now;
   }
+  if (isSettled() && diagnostics_.isDue(now))
+    diagnostics_.publish(world_, { now_ns_, now, paused_, time_.follows(), parameters_.real_time_factor, lost_ });
 }
 
 }  // namespace block_world

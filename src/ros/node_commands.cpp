@@ -16,8 +16,6 @@ constexpr int COMMAND_QUEUE = 1000;
 constexpr std::int64_t STEP_SLICE = 10000000;
 // s, about a century: within what stamps can hold.
 constexpr double LONGEST_STEP = 3e9;
-
-const char* const TOO_BUSY = "the engine is in the middle of a burst of events: try again";
 }  // namespace
 
 void Node::subscribe()
@@ -28,7 +26,6 @@ void Node::subscribe()
                    handle_.subscribe(topics::SPRING, COMMAND_QUEUE, &Node::onSpring, this, hints),
                    handle_.subscribe(topics::WRENCH, COMMAND_QUEUE, &Node::onWrench, this, hints) };
   services_ = { handle_.advertiseService(topics::PAUSE, &Node::onPause, this),
-                handle_.advertiseService(topics::RESET, &Node::onReset, this),
                 handle_.advertiseService(topics::STEP, &Node::onStep, this) };
 }
 
@@ -76,8 +73,14 @@ std::string Node::apply(const Command& command)
 
 void Node::logSceneInputs()
 {
+  bool set = false;
   for (const TimedCommand& input : world_.takeInputs())
+  {
     publishers_.publishInput(input.command, input.time.nanoseconds(), true);
+    set = set || std::holds_alternative<SetCommand>(input.command);
+  }
+  if (set)
+    shareLiveValues();
 }
 
 bool Node::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response)
@@ -90,28 +93,6 @@ bool Node::onPause(std_srvs::SetBool::Request& request, std_srvs::SetBool::Respo
     publishState();
   response.success = true;
   response.message = (paused_ ? "paused at " : "running from ") + std::to_string(world_.now().seconds()) + " s";
-  return true;
-}
-
-bool Node::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
-{
-  catchUp();
-  applyPending();
-  if (!isSettled())
-  {
-    response.message = TOO_BUSY;
-    return true;
-  }
-  if (now_ns_ > state_ns_)
-    publishState();
-  const int count = world_.bodyCount();
-  const std::string reason = apply(ResetCommand());
-  response.success = reason.empty();
-  response.message = response.success ? "reset at " + std::to_string(world_.now().seconds()) + " s" : reason;
-  publishers_.forgetImpulses();
-  if (world_.bodyCount() != count)
-    publishers_.publishShapes();
-  publishState();
   return true;
 }
 
@@ -144,21 +125,20 @@ std::string Node::applyAll(const std::vector<Pending>& commands)
 
 bool Node::onStep(msg::Step::Request& request, msg::Step::Response& response)
 {
-  catchUp();
-  applyPending();
+  const std::string busy = makeReady();
   if (!paused_)
     response.message = "refused: the world is running; call pause first";
   else if (!(request.duration >= 0.0 && request.duration <= LONGEST_STEP))
     response.message = "duration: must be finite, >= 0 and <= 3e9 s";
-  else if (!isSettled())
-    response.message = TOO_BUSY;
+  else if (!busy.empty())
+    response.message = busy;
   else
     response.message = applyAll(commandsOf(request));
   if (!response.message.empty())
     return true;
 
   const std::int64_t target = now_ns_ + std::llround(request.duration * 1e9);
-  while (ros::ok() && (now_ns_ < target || !isSettled()))
+  while (!isEnding() && (now_ns_ < target || !isSettled()))
   {
     advance(target, steadyNow() + STEP_SLICE);
     time_.publish(now_ns_);

@@ -1,8 +1,8 @@
 #include <ros/ros.h>
 
+#include <csignal>
 #include <memory>
 
-#include "block_world/scene_yaml.h"
 #include "node.h"
 #include "parameters.h"
 
@@ -13,7 +13,14 @@ std::unique_ptr<block_world::Node> makeNode(const ros::NodeHandle& handle)
   const block_world::Parameters parameters = block_world::readParameters(handle);
   for (const std::string& name : block_world::unknownParameters(handle))
     ROS_WARN_STREAM("unknown parameter " << name << ": not used");
-  return std::make_unique<block_world::Node>(handle, parameters, block_world::loadScene(parameters));
+  const block_world::SceneSource source = block_world::readSource(parameters);
+  return std::make_unique<block_world::Node>(
+      handle, parameters, source, block_world::buildScene(source, parameters.count, parameters.set));
+}
+
+void endNode(int)
+{
+  block_world::Node::end();
 }
 }  // namespace
 
@@ -33,6 +40,9 @@ int main(int argc, char** argv)
     ROS_FATAL_STREAM(error.what());
     return 2;
   }
+  // From here on signals end the loop and not ROS, so that the node can tidy up while it is still connected.
+  std::signal(SIGINT, endNode);
+  std::signal(SIGTERM, endNode);
   node->run();
   return 0;
 }

@@ -15,6 +15,12 @@ void Pacer::anchor(std::int64_t simulated, std::int64_t clock)
   clock_ = clock;
 }
 
+void Pacer::setFactor(double factor, std::int64_t clock)
+{
+  anchor(due(clock), clock);
+  factor_ = factor;
+}
+
 std::int64_t Pacer::due(std::int64_t clock) const
 {
   return simulated_ + std::llround(factor_ * static_cast<double>(clock - clock_));

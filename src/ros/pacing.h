@@ -14,6 +14,9 @@ public:
   /// From here on simulated is due at clock.
   void anchor(std::int64_t simulated, std::int64_t clock);
 
+  /// Another factor from this reading of the clock on; what is due then does not jump.
+  void setFactor(double factor, std::int64_t clock);
+
   /// Simulated time that is due when the clock shows this.
   std::int64_t due(std::int64_t clock) const;
 

@@ -136,11 +136,11 @@ Parameters readParameters(const ros::NodeHandle& handle)
   const Reader reader(handle);
   Parameters parameters;
   reader.read("scene", parameters.scene);
-  reader.read("gravity", parameters.gravity, 0.0, true);
-  reader.read("elasticity", parameters.elasticity, 0.0, true, 1.0);
-  reader.read("damping", parameters.damping, 0.0, true);
-  reader.read("thrust", parameters.thrust, 0.0, true);
-  reader.read("mass", parameters.mass, 0.0, false);
+  reader.read("gravity", parameters.set.gravity, 0.0, true);
+  reader.read("elasticity", parameters.set.elasticity, 0.0, true, 1.0);
+  reader.read("damping", parameters.set.damping, 0.0, true);
+  reader.read("thrust", parameters.set.thrust, 0.0, true);
+  reader.read("mass", parameters.set.mass, 0.0, false);
   reader.read("tolerance", parameters.tolerance, 0.0, false);
   reader.read("count", parameters.count, 1);
   reader.read("mouse_stiffness", parameters.mouse_stiffness, 0.0, true);
@@ -176,18 +176,23 @@ std::vector<std::string> unknownParameters(const ros::NodeHandle& handle)
   return unknown;
 }
 
-Scene loadScene(const Parameters& parameters)
+SceneSource readSource(const Parameters& parameters)
 {
-  Scene scene = loadSceneFile(parameters.scene, { parameters.count, parameters.tolerance });
-  scene.gravity = parameters.gravity.value_or(scene.gravity);
-  scene.elasticity = parameters.elasticity.value_or(scene.elasticity);
-  scene.damping = parameters.damping.value_or(scene.damping);
-  scene.thrust = parameters.thrust.value_or(scene.thrust);
-  if (parameters.mass)
+  return { parameters.scene, readSceneFile(parameters.scene), parameters.tolerance };
+}
+
+Scene buildScene(const SceneSource& source, const std::optional<int>& count, const SetCommand& set)
+{
+  Scene scene = loadSceneText(source.text, source.name, { count, source.tolerance });
+  scene.gravity = set.gravity.value_or(scene.gravity);
+  scene.elasticity = set.elasticity.value_or(scene.elasticity);
+  scene.damping = set.damping.value_or(scene.damping);
+  scene.thrust = set.thrust.value_or(scene.thrust);
+  if (set.mass)
   {
     if (scene.blocks.empty() || scene.blocks.front().fixed)
-      throw ParameterError("parameter mass: the first block of " + parameters.scene + " is none that can move");
-    scene.blocks.front().mass = *parameters.mass;
+      throw ParameterError("parameter mass: the first block of " + source.name + " is none that can move");
+    scene.blocks.front().mass = *set.mass;
   }
   return scene;
 }

@@ -21,12 +21,8 @@ public:
 /// The node's private parameters. What is not given is the scene's.
 struct Parameters
 {
-  std::string scene;              ///< path of a scene file
-  std::optional<double> gravity;  ///< m/s^2
-  std::optional<double> elasticity;
-  std::optional<double> damping;    ///< N s/m
-  std::optional<double> thrust;     ///< N
-  std::optional<double> mass;       ///< kg, of the first block
+  std::string scene;                ///< path of a scene file
+  SetCommand set;                   ///< gravity, elasticity, damping, thrust, mass
   std::optional<double> tolerance;  ///< m
   std::optional<int> count;         ///< of blocks
   double mouse_stiffness = 3.0;     ///< N/m, of a spring command that gives none
@@ -45,7 +41,18 @@ Parameters readParameters(const ros::NodeHandle& handle);
 /// Private parameters that the node does not know: most likely a typing mistake.
 std::vector<std::string> unknownParameters(const ros::NodeHandle& handle);
 
-/// Loads the scene and puts the parameters into it. Throws SceneFileError or ParameterError.
-Scene loadScene(const Parameters& parameters);
+/// A scene as it was given: kept, so that it can be built again with another number of blocks.
+struct SceneSource
+{
+  std::string name;  ///< in messages
+  std::string text;  ///< of the scene file
+  std::optional<double> tolerance;
+};
+
+/// Reads the scene file. Throws SceneFileError.
+SceneSource readSource(const Parameters& parameters);
+
+/// Builds the scene with these values in place of its own. Throws SceneFileError or ParameterError.
+Scene buildScene(const SceneSource& source, const std::optional<int>& count, const SetCommand& set);
 
 }  // namespace block_world

@@ -1,5 +1,6 @@
 #include "publishers.h"
 
+#include <std_msgs/Bool.h>
 #include <std_msgs/String.h>
 
 #include <algorithm>
@@ -33,6 +34,7 @@ Publishers::Publishers(ros::NodeHandle& handle, const World& world, const std::s
                                                                 bind(&Publishers::onOverlaySubscriber));
   markers_ = handle.advertise<visualization_msgs::MarkerArray>(topics::MARKERS, DISPLAY_QUEUE, true);
   scene_ = handle.advertise<std_msgs::String>(topics::SCENE, DISPLAY_QUEUE, true);
+  paused_flag_ = handle.advertise<std_msgs::Bool>(topics::PAUSED, DISPLAY_QUEUE, true);
 }
 
 void Publishers::setOrigin(std::int64_t origin_ns)
@@ -43,6 +45,9 @@ void Publishers::setOrigin(std::int64_t origin_ns)
 void Publishers::setPaused(bool paused)
 {
   paused_ = paused;
+  std_msgs::Bool flag;
+  flag.data = paused;
+  paused_flag_.publish(flag);
 }
 
 std_msgs::Header Publishers::header(std::int64_t now_ns) const
@@ -55,24 +60,22 @@ std_msgs::Header Publishers::header(std::int64_t now_ns) const
 
 void Publishers::publishScene(std::int64_t now_ns)
 {
-  std_msgs::String text;
-  text.data = writeScene(world_.scene());
-  scene_.publish(text);
-
   load_input_ = msg::Input();
   load_input_.kind = msg::Input::LOAD_SCENE;
-  load_input_.text = text.data;
+  load_input_.text = writeScene(world_.scene());
   load_input_.header = header(now_ns);
   load_input_.time_ns = now_ns;
   load_input_.index = input_index_++;
   inputs_.publish(load_input_);
-
-  overlay_ = Overlay(world_);
-  publishShapes();
+  publishBlocks();
 }
 
-void Publishers::publishShapes()
+void Publishers::publishBlocks()
 {
+  std_msgs::String text;
+  text.data = writeScene(world_.scene());
+  scene_.publish(text);
+  overlay_ = Overlay(world_);
   markers_.publish(sceneMarkers(world_, frame_id_, tf_prefix_));
 }
 

@@ -23,9 +23,10 @@ public:
   void setOrigin(std::int64_t origin_ns);
   void setPaused(bool paused);
 
-  /// Scene text and shapes, when either has changed; logs the scene as an input.
+  /// A scene was loaded: logs it as an input, and publishes its blocks.
   void publishScene(std::int64_t now_ns);
-  void publishShapes();
+  /// Scene text and shapes, where blocks have come or gone.
+  void publishBlocks();
 
   /// The state at now(), with the contacts since the last call.
   void publishState(std::int64_t now_ns, std::vector<ContactEvent> contacts);
@@ -60,7 +61,7 @@ private:
   std::uint64_t input_index_ = 0;
   msg::Input load_input_;
 
-  ros::Publisher transforms_, markers_, overlays_, bodies_, energy_, contacts_, inputs_, scene_;
+  ros::Publisher transforms_, markers_, overlays_, bodies_, energy_, contacts_, inputs_, scene_, paused_flag_;
 };
 
 }  // namespace block_world

@@ -19,9 +19,14 @@ constexpr char ENERGY[] = "energy";
 constexpr char CONTACTS[] = "contacts";
 constexpr char INPUTS[] = "inputs";
 constexpr char SCENE[] = "scene";
+constexpr char PAUSED[] = "paused";
 
 constexpr char PAUSE[] = "pause";
 constexpr char RESET[] = "reset";
 constexpr char STEP[] = "step";
+constexpr char LOAD_SCENE[] = "load_scene";
+constexpr char SET_STATE[] = "set_state";
+constexpr char SPAWN_BLOCK[] = "spawn_block";
+constexpr char DELETE_BLOCK[] = "delete_block";
 }  // namespace topics
 }  // namespace block_world

@@ -351,7 +351,26 @@ Scene loadSceneText(const std::string& text, const std::string& name, const Scen
   return reading.scene;
 }
 
-Scene loadSceneFile(const std::string& path, const SceneOverrides& overrides)
+Block loadBlockText(const std::string& text, const Scene& scene, const std::string& name)
+{
+  const YAML::Node root = parse(text, name);
+  Scene alone;
+  alone.tolerance = scene.tolerance;
+  alone.blocks.push_back(readBlock(YamlEntry(root, name), scene.blocks.size()));
+  try
+  {
+    completeScene(alone);
+  }
+  catch (const SceneError& error)
+  {
+    const std::string list = "blocks[0].";
+    const std::string key = error.key().rfind(list, 0) == 0 ? error.key().substr(list.size()) : error.key();
+    throw SceneFileError(complaint(name, lineOf(root, key), key, error.reason()));
+  }
+  return alone.blocks.front();
+}
+
+std::string readSceneFile(const std::string& path)
 {
   errno = 0;
   std::ifstream file(path, std::ios::binary);
@@ -360,7 +379,12 @@ Scene loadSceneFile(const std::string& path, const SceneOverrides& overrides)
   if (!file || (file.peek() == std::ifstream::traits_type::eof() && errno != 0))
     throw SceneFileError(path + ": cannot be read: " + std::strerror(errno));
   text << file.rdbuf();
-  return loadSceneText(text.str(), path, overrides);
+  return text.str();
+}
+
+Scene loadSceneFile(const std::string& path, const SceneOverrides& overrides)
+{
+  return loadSceneText(readSceneFile(path), path, overrides);
 }
 
 }  // namespace block_world
