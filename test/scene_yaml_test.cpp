@@ -377,6 +377,41 @@ TEST(Count, BlocksBeyondItMayOverlap)
   EXPECT_EQ(complaintAbout("count: 1\nblocks:\n  - {pose: [0, 0, 0]}\n  - {pose: [0, 0, 0]}\n"), "");
 }
 
+TEST(LoadBlockText, IsAnEntryOfTheBlocks)
+{
+  const Scene scene = loadSceneText("blocks:\n  - {pose: [0, 0, 0]}\n");
+  const Block block = loadBlockText("{size: [1, 2], mass: 3, pose: [5, 6, 0.7], velocity: [1, 2, 3]}", scene);
+  EXPECT_EQ(block.name, "block2");
+  EXPECT_EQ(block.vertices.size(), 4u);
+  EXPECT_EQ(block.mass, 3.0);
+  EXPECT_EQ(block.position, Eigen::Vector2d(5.0, 6.0));
+  EXPECT_EQ(block.omega, 3.0);
+}
+
+TEST(LoadBlockText, RefusesWithLineAndKey)
+{
+  const auto complaint = [](const std::string& text, double tolerance = 1e-6) -> std::string {
+    Scene scene;
+    scene.tolerance = tolerance;
+    try
+    {
+      loadBlockText(text, scene, "b");
+    }
+    catch (const SceneFileError& error)
+    {
+      return error.what();
+    }
+    return "accepted";
+  };
+  EXPECT_EQ(complaint("name: a\nmass: -1\npose: [0, 0, 0]\n"), "b:2: mass: must be > 0, is -1");
+  EXPECT_EQ(complaint("name: a\nsize: [1, 1]\n"), "b:1: pose: is missing");
+  EXPECT_EQ(complaint("pose: [0, 0, 0]\nvertices: [[0, 0], [1, 0], [2, 0]]\n").substr(0, 14), "b:2: vertices:");
+  EXPECT_EQ(complaint("pose: [0, 0\n").substr(0, 19), "b:2: not valid YAML");
+  // A tolerance of the scene that the block is to join.
+  EXPECT_EQ(complaint("{size: [1.0e-5, 1.0e-5], pose: [0, 0, 0]}").substr(0, 14), "b:1: tolerance");
+  EXPECT_EQ(complaint("{size: [1.0e-5, 1.0e-5], pose: [0, 0, 0]}", 1e-9), "accepted");
+}
+
 TEST(Tolerance, CanBeOverridden)
 {
   SceneOverrides overrides;

@@ -15,9 +15,8 @@ namespace block_world
 {
 namespace
 {
-constexpr std::int64_t MS = 1000000;           // ns
-constexpr std::int64_t REFRESH = 100 * MS;     // of a thrust that is held
-constexpr std::int64_t MOVING_FOR = 300 * MS;  // after the last state with a later time the world counts as running
+constexpr std::int64_t MS = 1000000;        // ns
+constexpr std::int64_t REFRESH = 100 * MS;  // of a thrust that is held
 constexpr int REDRAW_MS = 50;
 // s of simulated time: what is left of a thrust when the teleop dies.
 constexpr double THRUST_DURATION = 0.5;
@@ -54,6 +53,7 @@ Teleop::Teleop(Terminal& terminal)
   blocks_ = { { own.param<std::string>("first_block", "block1"), own.param<std::string>("second_block", "block2") } };
   thrust_ = handle_.advertise<msg::Thrust>(inNode(topics::THRUST), 100);
   energy_subscriber_ = handle_.subscribe(inNode(topics::ENERGY), 10, &Teleop::onEnergy, this);
+  paused_subscriber_ = handle_.subscribe(inNode(topics::PAUSED), 1, &Teleop::onPaused, this);
   pause_ = handle_.serviceClient<std_srvs::SetBool>(inNode(topics::PAUSE));
   reset_ = handle_.serviceClient<std_srvs::Trigger>(inNode(topics::RESET));
   step_ = handle_.serviceClient<msg::Step>(inNode(topics::STEP));
@@ -71,7 +71,7 @@ void Teleop::run()
         onKey(*key, now);
     ros::spinOnce();
     drive(now);
-    show(now);
+    show();
   }
   held_.releaseAll();
   drive(steadyNow());
@@ -81,9 +81,12 @@ void Teleop::run()
 
 void Teleop::onEnergy(const msg::Energy::ConstPtr& message)
 {
-  if (energy_ && message->time > energy_->time)
-    moved_at_ = steadyNow();
   energy_ = *message;
+}
+
+void Teleop::onPaused(const std_msgs::Bool::ConstPtr& message)
+{
+  paused_ = message->data;
 }
 
 void Teleop::onKey(int key, std::int64_t now)
@@ -91,7 +94,7 @@ void Teleop::onKey(int key, std::int64_t now)
   if (driveOf(key))
     held_.press(key, now);
   else if (key == ' ')
-    togglePause(now);
+    togglePause();
   else if (key == 'r' || key == 'R')
     reset();
   else if (key == 'n' || key == 'N')
@@ -124,15 +127,10 @@ void Teleop::sendThrust(int block, const std::vector<double>& levels, std::int64
   sent_at_[block] = now;
 }
 
-bool Teleop::isRunning(std::int64_t now) const
-{
-  return energy_ && now < moved_at_ + MOVING_FOR;
-}
-
-void Teleop::togglePause(std::int64_t now)
+void Teleop::togglePause()
 {
   std_srvs::SetBool service;
-  service.request.data = isRunning(now);
+  service.request.data = !paused_;
   answer_ = pause_.call(service) ? service.response.message : "no answer to pause";
 }
 
@@ -149,17 +147,17 @@ void Teleop::step()
   answer_ = step_.call(service) ? service.response.message : "no answer to step";
 }
 
-std::string Teleop::status(std::int64_t now) const
+std::string Teleop::status() const
 {
   if (!energy_)
     return thrust_.getNumSubscribers() > 0 ? "connected, no state yet" :
                                              "waiting for the node " + std::string(topics::NODE);
   char text[80];
-  std::snprintf(text, sizeof(text), "%s at %.3f s", isRunning(now) ? "running" : "standing still", energy_->time);
+  std::snprintf(text, sizeof(text), "%s at %.3f s", paused_ ? "paused" : "running", energy_->time);
   return text;
 }
 
-void Teleop::show(std::int64_t now)
+void Teleop::show()
 {
   const msg::Energy energy = energy_.value_or(msg::Energy());
   const double potential = energy.gravity + energy.spring;
@@ -167,7 +165,7 @@ void Teleop::show(std::int64_t now)
                         std::fabs(energy.total), 1e-12 });
   const int columns = terminal_.columns();
   terminal_.show({
-      "block_world: " + status(now),
+      "block_world: " + status(),
       "",
       "  " + blocks_[0] + ":  E forward  D back  S left  F right       Shift+S / Shift+F spin",
       "  " + blocks_[1] + ":  I forward  K back  J left  L right       Shift+J / Shift+L spin   (or the arrows)",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <std_msgs/Bool.h>
 
 #include <array>
 #include <cstdint>
@@ -25,20 +26,20 @@ public:
 
 private:
   void onEnergy(const msg::Energy::ConstPtr& message);
+  void onPaused(const std_msgs::Bool::ConstPtr& message);
   void onKey(int key, std::int64_t now);
   void drive(std::int64_t now);
   void sendThrust(int block, const std::vector<double>& levels, std::int64_t now);
-  bool isRunning(std::int64_t now) const;
-  void togglePause(std::int64_t now);
+  void togglePause();
   void reset();
   void step();
-  void show(std::int64_t now);
-  std::string status(std::int64_t now) const;
+  void show();
+  std::string status() const;
 
   Terminal& terminal_;
   ros::NodeHandle handle_;
   ros::Publisher thrust_;
-  ros::Subscriber energy_subscriber_;
+  ros::Subscriber energy_subscriber_, paused_subscriber_;
   ros::ServiceClient pause_, reset_, step_;
 
   KeyReader reader_;
@@ -48,9 +49,9 @@ private:
   std::array<std::int64_t, 2> sent_at_{ { 0, 0 } };
 
   std::optional<msg::Energy> energy_;
-  std::int64_t moved_at_ = 0;  ///< when a message with a later time came last
-  double largest_ = 0.0;       ///< J, the most that a bar has had to show
-  std::string answer_;         ///< of the last service
+  bool paused_ = false;
+  double largest_ = 0.0;  ///< J, the most that a bar has had to show
+  std::string answer_;    ///< of the last service
   bool leave_ = false;
 };
 

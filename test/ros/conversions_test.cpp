@@ -110,6 +110,13 @@ TEST(Input, holdsWhatIsNeededToRebuildEveryCommand)
   input = toInput(spawn);
   EXPECT_EQ(input.kind, static_cast<int>(msg::Input::SPAWN));
   EXPECT_EQ(loadSceneText(input.text).blocks.at(0).name, "b");
+  for (const double size : { 1e-6, 1e6 })
+  {
+    spawn.block.vertices = { { -size, -size }, { size, -size }, { size, size }, { -size, size } };
+    spawn.block.size.reset();
+    spawn.block.position.setZero();
+    EXPECT_EQ(loadSceneText(toInput(spawn).text).blocks.at(0).vertices, spawn.block.vertices) << size;
+  }
 
   EXPECT_EQ(toInput(DeleteCommand{ "a" }).body, "a");
   EXPECT_EQ(toInput(ResetCommand()).kind, static_cast<int>(msg::Input::RESET));

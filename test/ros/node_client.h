@@ -113,6 +113,31 @@ public:
     EXPECT_TRUE(reset_.call(service) && service.response.success) << service.response.message;
   }
 
+  /// Calls any of the node's services; the caller looks at success.
+  template <class Service>
+  typename Service::Response call(const char* service, const typename Service::Request& request)
+  {
+    typename Service::Response response;
+    EXPECT_TRUE(ros::service::call(topic(service), const_cast<typename Service::Request&>(request), response))
+        << topic(service) << " did not answer";
+    return response;
+  }
+
+  /// Loads a scene from text and expects success.
+  void load(const std::string& text)
+  {
+    msg::LoadScene::Request request;
+    request.text = text;
+    const msg::LoadScene::Response response = call<msg::LoadScene>(topics::LOAD_SCENE, request);
+    EXPECT_TRUE(response.success) << response.message;
+  }
+
+  /// The state that is told now, and its stamp.
+  msg::BodyStates state()
+  {
+    return step(msg::Step::Request()).state;
+  }
+
 private:
   std::string name_;
   ros::NodeHandle handle_;

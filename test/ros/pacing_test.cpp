@@ -13,6 +13,18 @@ TEST(Pacer, followsTheClockAtItsFactor)
   EXPECT_EQ(pacer.clockAt(1200), 600);
 }
 
+TEST(Pacer, changesItsFactorWithoutAJump)
+{
+  Pacer pacer(2.0);
+  pacer.anchor(1000, 500);
+  pacer.setFactor(0.5, 600);
+  EXPECT_EQ(pacer.due(600), 1200);
+  EXPECT_EQ(pacer.due(700), 1250);
+  pacer.setFactor(10.0, 700);
+  EXPECT_EQ(pacer.due(700), 1250);
+  EXPECT_EQ(pacer.due(701), 1260);
+}
+
 TEST(Pacer, staysExactAfterYears)
 {
   Pacer pacer(1.0);
