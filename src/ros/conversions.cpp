@@ -130,8 +130,8 @@ WrenchCommand toCommand(const geometry_msgs::Wrench& message, const std::string&
 
 SetStateCommand toCommand(const msg::BodyState& message)
 {
-  return { message.name, Eigen::Vector2d(message.x, message.y), message.angle,
-           Eigen::Vector2d(message.vx, message.vy), message.omega };
+  return { message.name, Eigen::Vector2d(message.x, message.y), message.angle, Eigen::Vector2d(message.vx, message.vy),
+           message.omega };
 }
 
 std::string bodyOfFrame(const World& world, const std::string& frame, const std::string& prefix)

@@ -68,6 +68,9 @@ void Diagnostics::tellPace(diagnostic_updater::DiagnosticStatusWrapper& status) 
   else if (lost > 0.0)
     status.summaryf(DiagnosticStatus::WARN, "too slow by %.3g s in the last second: take a lower real_time_factor",
                     lost);
+  else if (pace_.late > 0.0)
+    status.summaryf(DiagnosticStatus::WARN, "%.3g s behind /clock: its owner should take a lower real_time_factor",
+                    pace_.late);
   else
     status.summary(DiagnosticStatus::OK, "running");
 

@@ -18,6 +18,7 @@ struct Pace
   bool follows = false;  ///< another's /clock
   double asked = 1.0;    ///< simulated seconds per second; 0 = as fast as possible
   double lost = 0.0;     ///< s that simulated time has fallen behind for good
+  double late = 0.0;     ///< s that it is behind now, where that is too much
 };
 
 /// Publishes /diagnostics once a second of the computer's clock, also while simulated time stands still.

@@ -38,9 +38,10 @@ std::vector<double> thrustLevels(double right, double forward, double spin)
 {
   const auto positive = [](double value) { return std::max(value, 0.0); };
   // Thrusters 0 and 4 push to the left, 1 and 5 to the right, 2 forward, 3 back; 0 and 5 spin counter-clockwise.
-  std::vector<double> levels = { positive(-right) + positive(spin), positive(right) + positive(-spin),
-                                 positive(forward),                 positive(-forward),
-                                 positive(-right) + positive(-spin), positive(right) + positive(spin) };
+  std::vector<double> levels = {
+    positive(-right) + positive(spin),  positive(right) + positive(-spin), positive(forward), positive(-forward),
+    positive(-right) + positive(-spin), positive(right) + positive(spin)
+  };
   for (double& level : levels)
     level = std::min(level, 1.0);
   return levels;
@@ -49,7 +50,7 @@ std::vector<double> thrustLevels(double right, double forward, double spin)
 JoyTeleop::JoyTeleop() : levels_(thrustLevels(0.0, 0.0, 0.0))
 {
   const ros::NodeHandle own("~");
-  layout_.right_axis = readIndex(own, "right_axis", layout_.right_axis);
+  layout_.side_axis = readIndex(own, "side_axis", layout_.side_axis);
   layout_.forward_axis = readIndex(own, "forward_axis", layout_.forward_axis);
   layout_.spin_axis = readIndex(own, "spin_axis", layout_.spin_axis);
   layout_.next_block = readIndex(own, "next_block_button", layout_.next_block);
@@ -111,8 +112,8 @@ void JoyTeleop::onJoy(const sensor_msgs::Joy::ConstPtr& joy)
   buttons_ = joy->buttons;
 
   // In sensor_msgs/Joy left and up are positive.
-  const std::vector<double> levels = thrustLevels(-axis(*joy, layout_.right_axis), axis(*joy, layout_.forward_axis),
-                                                  axis(*joy, layout_.spin_axis));
+  const std::vector<double> levels =
+      thrustLevels(-axis(*joy, layout_.side_axis), axis(*joy, layout_.forward_axis), axis(*joy, layout_.spin_axis));
   if (levels == levels_)
     return;
   levels_ = levels;

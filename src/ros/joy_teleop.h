@@ -25,7 +25,7 @@ private:
   /// Indices in sensor_msgs/Joy.
   struct Layout
   {
-    int right_axis = 0, forward_axis = 1, spin_axis = 3;
+    int side_axis = 0, forward_axis = 1, spin_axis = 3;
     int next_block = 0, previous_block = 1, pause = 7, reset = 6;
   };
 

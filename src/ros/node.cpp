@@ -216,8 +216,16 @@ void Node::publishDue()
     overlay_changed_ = false;
     overlay_sent_ = now;
   }
-  if (isSettled() && diagnostics_.isDue(now))
-    diagnostics_.publish(world_, { now_ns_, now, paused_, time_.follows(), parameters_.real_time_factor, lost_ });
+  if (diagnostics_.isDue(now))
+    publishDiagnostics(now);
+}
+
+void Node::publishDiagnostics(std::int64_t now)
+{
+  // Others are not waited for: they forgive what is late.
+  const std::int64_t late = time_.follows() && !paused_ ? pacer_.due(time_.now()) - now_ns_ : 0;
+  diagnostics_.publish(world_, { now_ns_, now, paused_, time_.follows(), parameters_.real_time_factor, lost_,
+                                 late > LATE_LIMIT ? static_cast<double>(late) * 1e-9 : 0.0 });
 }
 
 }  // namespace block_world

@@ -54,6 +54,7 @@ private:
   void setRealTimeFactor(double factor);
   void publishState();
   void publishDue();
+  void publishDiagnostics(std::int64_t now);
   void tellNotes();
 
   // node_commands.cpp: topics and services
@@ -85,7 +86,7 @@ private:
   void shareLiveValues();
   void onLiveChange(BlockWorldConfig& values);
   std::string changeWorld(const BlockWorldConfig& now, const BlockWorldConfig& asked);
-  std::string changePace(const BlockWorldConfig& asked);
+  std::string changeNode(const BlockWorldConfig& asked);
 
   ros::NodeHandle handle_;
   ros::CallbackQueue callbacks_;

@@ -14,8 +14,8 @@ std::unique_ptr<block_world::Node> makeNode(const ros::NodeHandle& handle)
   for (const std::string& name : block_world::unknownParameters(handle))
     ROS_WARN_STREAM("unknown parameter " << name << ": not used");
   const block_world::SceneSource source = block_world::readSource(parameters);
-  return std::make_unique<block_world::Node>(
-      handle, parameters, source, block_world::buildScene(source, parameters.count, parameters.set));
+  return std::make_unique<block_world::Node>(handle, parameters, source,
+                                             block_world::buildScene(source, parameters.count, parameters.set));
 }
 
 void endNode(int)

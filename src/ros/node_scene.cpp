@@ -218,7 +218,7 @@ void Node::shareLiveValues()
 void Node::onLiveChange(BlockWorldConfig& values)
 {
   const BlockWorldConfig before = liveValues(), asked = values;
-  for (const std::string& reason : { changeWorld(before, asked), changePace(asked) })
+  for (const std::string& reason : { changeWorld(before, asked), changeNode(asked) })
     if (!reason.empty())
       ROS_WARN_STREAM("live parameters refused: " << reason);
   values = liveValues();
@@ -256,7 +256,8 @@ std::string Node::changeWorld(const BlockWorldConfig& now, const BlockWorldConfi
   return applyNow(set);
 }
 
-std::string Node::changePace(const BlockWorldConfig& asked)
+/// What concerns the node and not the world: a replay needs none of it.
+std::string Node::changeNode(const BlockWorldConfig& asked)
 {
   for (const double value : { asked.mouse_stiffness, asked.mouse_damping, asked.real_time_factor })
     if (!std::isfinite(value))

@@ -1,4 +1,5 @@
-// Parameters that change while the node runs, as a user changes them: by dynamic_reconfigure. The tests share one world.
+// Parameters that change while the node runs, as a user changes them: by dynamic_reconfigure. The tests share one
+// world.
 
 #include <dynamic_reconfigure/Config.h>
 #include <dynamic_reconfigure/Reconfigure.h>
@@ -311,10 +312,11 @@ TEST_F(NodeLive, nothingOutlivesTheNode)
   handle.setParam("/guest/gravity", 2.0);
   for (const char* end : { "INT", "TERM" })
   {
-    const std::string run = std::string("timeout -s ") + end + " 20 " BLOCK_WORLD_NODE
-                            " __name:=guest _publish_clock:=false _tf_prefix:=guest/ "
+    const std::string run = std::string("timeout -s ") + end +
+                            " 20 " BLOCK_WORLD_NODE " __name:=guest _publish_clock:=false _tf_prefix:=guest/ "
                             "_scene:=" BLOCK_WORLD_DIR "/test/scenes/bounce.yaml 2>/dev/null >/dev/null & pid=$!; "
-                            "sleep 3; kill -" + end + " $pid; wait $pid";
+                            "sleep 3; kill -" +
+                            end + " $pid; wait $pid";
     std::thread other([run] { std::system(("bash -c '" + run + "'").c_str()); });
     ASSERT_TRUE(waitFor([&] { return ros::service::exists("/guest/set_parameters", false); }, 3.0));
     EXPECT_EQ(set({ { "gravity", 7.0 } }, "/guest")["gravity"], 7.0);
@@ -322,8 +324,8 @@ TEST_F(NodeLive, nothingOutlivesTheNode)
     EXPECT_EQ(parameter("mass", "/guest"), 2.0);
     other.join();
     EXPECT_EQ(parameter("gravity", "/guest"), 2.0) << end;
-    for (const char* name : { "mass", "elasticity", "damping", "thrust", "count", "mouse_stiffness", "mouse_damping",
-                              "real_time_factor" })
+    for (const char* name :
+         { "mass", "elasticity", "damping", "thrust", "count", "mouse_stiffness", "mouse_damping", "real_time_factor" })
       EXPECT_FALSE(handle.hasParam(std::string("/guest/") + name)) << name << " after " << end;
   }
 }

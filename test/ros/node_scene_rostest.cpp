@@ -119,7 +119,8 @@ TEST_F(NodeScene, loadReplacesTheWorldWhileTimeGoesOn)
   ASSERT_TRUE(bodies.waitForCount(1) && inputs.waitForCount(1) && energies.waitForCount(1) && scenes.waitForCount(1) &&
               markers.waitForCount(1));
 
-  client.load("name: falls\ngravity: 9.8\nblocks: [{name: stone, size: [1, 1], pose: [1, 10, 0], velocity: [2, 0, 0]}]\n"
+  client.load("name: falls\ngravity: 9.8\nblocks: [{name: stone, size: [1, 1], pose: [1, 10, 0], velocity: [2, 0, "
+              "0]}]\n"
               "inputs: [{time: 0.5, set: {gravity: 0}}]\n");
   const msg::BodyStates begin = client.state();
   EXPECT_EQ(begin.header.stamp.toNSec(), 123456789u);
@@ -168,8 +169,10 @@ TEST_F(NodeScene, loadRefusesAndChangesNothing)
   expectRefusal("", "", { "path", "text" });
   expectRefusal("a.yaml", "gravity: 1", { "path", "text" });
   expectRefusal("/nowhere/a.yaml", "", { "/nowhere/a.yaml", "No such file" });
-  expectRefusal(BLOCK_WORLD_DIR "/test/scenes/invalid/mass_zero.yaml", "", { "mass_zero.yaml:", "mass", "must be > 0" });
-  expectRefusal("", "gravity: 1\nblocks:\n  - {pose: [0, 0, 0], mass: -1}\n", { "text:3: blocks[0].mass: must be > 0" });
+  expectRefusal(BLOCK_WORLD_DIR "/test/scenes/invalid/mass_zero.yaml", "",
+                { "mass_zero.yaml:", "mass", "must be > 0" });
+  expectRefusal("", "gravity: 1\nblocks:\n  - {pose: [0, 0, 0], mass: -1}\n",
+                { "text:3: blocks[0].mass: must be > 0" });
   expectRefusal("", "gravity: [", { "text:", "not valid YAML" });
   expectRefusal("", "blocks: [{name: a, pose: [0, 0, 0]}, {name: b, pose: [0.5, 0, 0]}]", { "a", "b", "overlaps" });
 

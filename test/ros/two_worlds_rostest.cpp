@@ -1,5 +1,5 @@
-// Two worlds under one master, in the namespaces a and b, with one clock. a is paused and stepped, which moves the clock
-// that b follows. The tests share the worlds and run in this order.
+// Two worlds under one master, in the namespaces a and b, with one clock. a is paused and stepped, which moves the
+// clock that b follows. The tests share the worlds and run in this order.
 
 #include <rosgraph_msgs/Clock.h>
 #include <tf2_ros/transform_listener.h>
