@@ -75,6 +75,21 @@ std::optional<Drive> driveOf(int key)
   return std::nullopt;
 }
 
+std::vector<double> levelsOf(const std::vector<int>& keys, int block)
+{
+  std::vector<double> levels(THRUSTERS, 0.0);
+  for (const int key : keys)
+  {
+    const std::optional<Drive> drive = driveOf(key);
+    if (!drive || drive->block != block)
+      continue;
+    for (const int thruster : drive->thrusters)
+      if (thruster >= 0)
+        levels[thruster] = 1.0;
+  }
+  return levels;
+}
+
 HeldKeys::HeldKeys(std::int64_t first_hold, std::int64_t repeat_hold)
   : first_hold_(first_hold), repeat_hold_(repeat_hold)
 {
@@ -101,17 +116,11 @@ void HeldKeys::releaseAll()
 
 std::vector<double> HeldKeys::levels(int block, std::int64_t now) const
 {
-  std::vector<double> levels(THRUSTERS, 0.0);
+  std::vector<int> keys;
   for (const Held& held : held_)
-  {
-    const std::optional<Drive> drive = driveOf(held.key);
-    if (held.until <= now || !drive || drive->block != block)
-      continue;
-    for (const int thruster : drive->thrusters)
-      if (thruster >= 0)
-        levels[thruster] = 1.0;
-  }
-  return levels;
+    if (held.until > now)
+      keys.push_back(held.key);
+  return levelsOf(keys, block);
 }
 
 }  // namespace block_world

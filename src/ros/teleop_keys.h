@@ -36,6 +36,9 @@ struct Drive
 /// Nothing for keys that drive no block. Capitals are those with Shift: they spin.
 std::optional<Drive> driveOf(int key);
 
+/// The levels (0 or 1) of a block's six thrusters while these keys are held.
+std::vector<double> levelsOf(const std::vector<int>& keys, int block);
+
 /// Which keys are held. A terminal tells of no release: a key counts as held until it has not come again for a while.
 /// The first wait is longer, because keys begin to repeat only after a delay.
 class HeldKeys
