@@ -28,7 +28,8 @@ namespace
 {
 constexpr int REFRESH_MS = 100;
 
-const char* const HELP = "<b>Drag</b> pulls a block; while paused moves it, with Ctrl turns it. <b>SDFE</b>, <b>JKLI</b> or "
+const char* const HELP = "<b>Drag</b> pulls a block; while paused moves it, with Ctrl turns it. <b>SDFE</b>, "
+                         "<b>JKLI</b> or "
                          "arrows thrust, with Shift spin. <b>Space</b> pauses, <b>R</b> resets, <b>N</b> steps.";
 
 /// A block on a spring.
@@ -55,14 +56,15 @@ DriveTool::DriveTool() : drag_(world_), keys_([this] { sendThrust(); })
   connect(&refresh_timer_, &QTimer::timeout, this, [this] { refresh(); });
 
   rviz::Property* properties = getPropertyContainer();
-  world_name_ = new rviz::StringProperty("World", topics::NODE, "Name of the node that simulates the world.", properties);
+  world_name_ =
+      new rviz::StringProperty("World", topics::NODE, "Name of the node that simulates the world.", properties);
   connect(world_name_, &rviz::Property::changed, this, [this] { connectWorld(); });
-  const char* const DESCRIPTIONS[] = { "The block that S, D, F and E drive.",
-                                       "The block that J, K, L, I and the arrows drive." };
+  const char* const DESCRIPTIONS[] = { "The block that S, D, F and E drive.", "The block that J, K, L, I and the "
+                                                                              "arrows drive." };
   for (int block : { 0, 1 })
   {
-    block_names_[block] = new rviz::StringProperty(QString("Block %1").arg(block + 1), QString("block%1").arg(block + 1),
-                                                   DESCRIPTIONS[block], properties);
+    block_names_[block] = new rviz::StringProperty(QString("Block %1").arg(block + 1),
+                                                   QString("block%1").arg(block + 1), DESCRIPTIONS[block], properties);
     sent_levels_[block] = keys_.levels(block);
   }
 }

@@ -32,7 +32,8 @@ EnergyBars::EnergyBars(QWidget* parent) : QWidget(parent)
 void EnergyBars::show(const Energies& energies)
 {
   energies_ = energies;
-  // Where the last bar ends is the total; with a negative potential nothing reaches farther to the right than 0 or that.
+  // Where the last bar ends is the total; with a negative potential nothing reaches farther to the right than 0 or
+  // that.
   scale_.adapt(std::min(energies.potential, 0.0), std::max(energies.total(), 0.0),
                static_cast<double>(since_.restart()) * 1e-3);
   update();

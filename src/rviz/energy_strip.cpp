@@ -128,7 +128,8 @@ void EnergyStrip::paintAxes(QPainter& painter, const Map& map) const
       painter.drawText(QRectF(x - wide, area.bottom() + 2, wide, line), Qt::AlignRight,
                        QString("%1 s").arg(map.newest, 0, 'f', 1));
     else
-      painter.drawText(QRectF(x - wide / 2, area.bottom() + 2, wide, line), Qt::AlignHCenter, QString("-%1 s").arg(ago));
+      painter.drawText(QRectF(x - wide / 2, area.bottom() + 2, wide, line), Qt::AlignHCenter,
+                       QString("-%1 s").arg(ago));
   }
 }
 

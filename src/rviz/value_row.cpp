@@ -41,11 +41,12 @@ ValueRow::ValueRow(const Spec& spec, QGridLayout* layout, const std::function<vo
   QObject::connect(slider_, &QSlider::valueChanged, field_, [this](int position) {
     field_->setValue(spec_.least + (spec_.slider_most - spec_.least) * position / slider_->maximum());
   });
-  QObject::connect(field_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), slider_, [this, on_change](double value) {
-    const QSignalBlocker blocker(slider_);
-    slider_->setValue(sliderPosition(value));
-    on_change(value);
-  });
+  QObject::connect(field_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), slider_,
+                   [this, on_change](double value) {
+                     const QSignalBlocker blocker(slider_);
+                     slider_->setValue(sliderPosition(value));
+                     on_change(value);
+                   });
 }
 
 const std::string& ValueRow::name() const

@@ -18,8 +18,8 @@ public:
     std::string name;  ///< of the parameter
     const char* label;
     const char* unit;
-    double least, most;     ///< of the number field
-    double slider_most;     ///< a slider has to end somewhere
+    double least, most;  ///< of the number field
+    double slider_most;  ///< a slider has to end somewhere
     int decimals;
   };
 

@@ -25,8 +25,8 @@
 
 namespace block_world
 {
-/// All that the plugins say to a block world and hear from it. Messages and answers come in the thread of Qt, by a timer
-/// of the computer's clock, and nothing ever waits for the world.
+/// All that the plugins say to a block world and hear from it. Messages and answers come in the thread of Qt, by a
+/// timer of the computer's clock, and nothing ever waits for the world.
 class WorldClient
 {
 public:

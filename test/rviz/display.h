@@ -75,8 +75,8 @@ public:
   {
     int ends[2];
     EXPECT_EQ(pipe(ends), 0);
-    server_ = std::make_unique<Process>(std::vector<std::string>{
-        "Xvfb", "-displayfd", std::to_string(ends[1]), "-screen", "0", "1280x900x24", "-nolisten", "tcp" });
+    server_ = std::make_unique<Process>(std::vector<std::string>{ "Xvfb", "-displayfd", std::to_string(ends[1]),
+                                                                  "-screen", "0", "1280x900x24", "-nolisten", "tcp" });
     close(ends[1]);
     char number[16] = {};
     const ssize_t size = read(ends[0], number, sizeof(number) - 1);

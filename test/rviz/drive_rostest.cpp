@@ -204,7 +204,8 @@ TEST_F(Drive, aSpringPullsTheBlockUnderTheMouse)
 TEST_F(Drive, outsideOfAllTheNearestBlockIsTaken)
 {
   // 1.5 m from block1, whose right side is at x = -3.5, and 4.5 m from block2.
-  const msg::SpringForce spring = click({ std::atoi(at(-2, 0.5).c_str()), static_cast<int>(std::lround(top_ - 0.5 * scale_)) }, 5.0);
+  const msg::SpringForce spring =
+      click({ std::atoi(at(-2, 0.5).c_str()), static_cast<int>(std::lround(top_ - 0.5 * scale_)) }, 5.0);
   EXPECT_EQ(spring.body, "block1");
   EXPECT_NEAR(spring.attach.x, 0.5, 0.05) << "the nearest point of it, which by then has begun to move";
   EXPECT_NEAR(spring.attach.y, 0.5, PIXEL);
@@ -374,8 +375,8 @@ TEST_F(Drive, answersAtOnce)
   const boost::function<void(const msg::Input::ConstPtr&)> note = [&](const msg::Input::ConstPtr&) {
     arrived = ros::WallTime::now();
   };
-  const ros::Subscriber subscriber = handle.subscribe<msg::Input>(client.topic(topics::INPUTS), 100, note, ros::VoidConstPtr(),
-                                                                  ros::TransportHints().tcpNoDelay());
+  const ros::Subscriber subscriber = handle.subscribe<msg::Input>(
+      client.topic(topics::INPUTS), 100, note, ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   ASSERT_TRUE(waitFor([&] { return subscriber.getNumPublishers() > 0; }));
   pass(0.2);
   std::vector<double> presses, releases;
@@ -398,8 +399,8 @@ TEST_F(Drive, answersAtOnce)
   {
     std::sort(times->begin(), times->end());
     const double median = (*times)[times->size() / 2];
-    std::printf("%s: median %.1f ms, 90%% %.1f ms, worst %.1f ms\n", times == &presses ? "press" : "release", 1e3 * median,
-                1e3 * (*times)[times->size() * 9 / 10], 1e3 * times->back());
+    std::printf("%s: median %.1f ms, 90%% %.1f ms, worst %.1f ms\n", times == &presses ? "press" : "release",
+                1e3 * median, 1e3 * (*times)[times->size() * 9 / 10], 1e3 * times->back());
     EXPECT_LT(median, 0.020);
   }
 }

@@ -179,7 +179,8 @@ TEST_F(EnergyPanelTest, slidersChangeThePhysics)
   const msg::BodyState start = client.advance(0.0)[0];
   const msg::BodyState end = client.step(push).state.bodies[0];
   const double speed_up = std::hypot(end.vx - start.vx, end.vy - start.vy);
-  // Thrust along the block's axis, which turns a little meanwhile: a chord instead of an arc, by less than omega^2 t^2 / 24.
+  // Thrust along the block's axis, which turns a little meanwhile: a chord instead of an arc, by less than omega^2 t^2
+  // / 24.
   const double turned = start.omega * 0.1;
   EXPECT_NEAR(speed_up, 2.5 / 4.0 * 0.1, 2.5 / 4.0 * 0.1 * turned * turned);
 }
@@ -205,7 +206,8 @@ TEST_F(EnergyPanelTest, theNumberOfBlocks)
   for (const char* count : { "6", "1", "3" })
   {
     type("count", count);
-    EXPECT_TRUE(wait([&] { return client.advance(0.0).size() == static_cast<std::size_t>(std::atoi(count)); })) << count;
+    EXPECT_TRUE(wait([&] { return client.advance(0.0).size() == static_cast<std::size_t>(std::atoi(count)); }))
+        << count;
   }
   type("count", "7");
   pass(0.5);

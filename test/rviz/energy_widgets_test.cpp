@@ -147,7 +147,9 @@ TEST(EnergyBars, arePaintedWhereTheyAre)
       const QImage image = picture(bars, pixel_ratio);
       const EnergyBars::Geometry g = bars.geometryOfBars();
       // Off the middle, where the lines of zero or total may pass.
-      const auto inside = [](const QRectF& bar) { return bar.topLeft() + QPointF(0.3 * bar.width(), 0.5 * bar.height()); };
+      const auto inside = [](const QRectF& bar) {
+        return bar.topLeft() + QPointF(0.3 * bar.width(), 0.5 * bar.height());
+      };
       EXPECT_EQ(colorAt(image, inside(g.potential)), energy_colors::POTENTIAL);
       EXPECT_EQ(colorAt(image, inside(g.rotational)), energy_colors::ROTATIONAL);
       EXPECT_EQ(colorAt(image, inside(g.translational)), energy_colors::TRANSLATIONAL);

@@ -56,7 +56,8 @@ TEST(View, toolAndPanelAreThereAndNothingComplains)
   ASSERT_GT(tools->numTools(), 0);
   EXPECT_EQ(tools->getCurrentTool()->getClassId(), "block_world/Drive") << "ready to be driven";
   for (int i = 0; i < tools->numTools(); ++i)
-    EXPECT_EQ(dynamic_cast<rviz::FailedTool*>(tools->getTool(i)), nullptr) << tools->getTool(i)->getName().toStdString();
+    EXPECT_EQ(dynamic_cast<rviz::FailedTool*>(tools->getTool(i)), nullptr)
+        << tools->getTool(i)->getName().toStdString();
   EXPECT_TRUE(frame.findChildren<rviz::FailedPanel*>().empty());
   EXPECT_EQ(frame.findChildren<QWidget*>("energy_bars").size(), 1);
   QLabel* const status = frame.findChild<QLabel*>("status");
