@@ -28,9 +28,11 @@ namespace
 {
 constexpr int REFRESH_MS = 100;
 
-const char* const HELP = "<b>Drag</b> pulls a block; while paused moves it, with Ctrl turns it. <b>SDFE</b>, "
-                         "<b>JKLI</b> or "
-                         "arrows thrust, with Shift spin. <b>Space</b> pauses, <b>R</b> resets, <b>N</b> steps.";
+const char* const HELP = "<b>Drag</b> pulls a block; while paused moves it, with Ctrl turns it. "
+                         "<b>SDFE</b>, <b>JKLI</b> or arrows thrust, with Shift spin. "
+                         "<b>Space</b> pauses, <b>R</b> resets, <b>N</b> steps.";
+const char* const DRIVEN_BY[] = { "The block that S, D, F and E drive.", "The block that J, K, L, I and the arrows "
+                                                                         "drive." };
 
 /// A block on a spring.
 QIcon makeIcon()
@@ -59,12 +61,10 @@ DriveTool::DriveTool() : drag_(world_), keys_([this] { sendThrust(); })
   world_name_ =
       new rviz::StringProperty("World", topics::NODE, "Name of the node that simulates the world.", properties);
   connect(world_name_, &rviz::Property::changed, this, [this] { connectWorld(); });
-  const char* const DESCRIPTIONS[] = { "The block that S, D, F and E drive.", "The block that J, K, L, I and the "
-                                                                              "arrows drive." };
   for (int block : { 0, 1 })
   {
     block_names_[block] = new rviz::StringProperty(QString("Block %1").arg(block + 1),
-                                                   QString("block%1").arg(block + 1), DESCRIPTIONS[block], properties);
+                                                   QString("block%1").arg(block + 1), DRIVEN_BY[block], properties);
     sent_levels_[block] = keys_.levels(block);
   }
 }

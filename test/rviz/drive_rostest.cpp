@@ -151,10 +151,16 @@ protected:
     top_ = first.y + a.y * scale_;
   }
 
+  static Pixel pixelOf(double x, double y)
+  {
+    return { static_cast<int>(std::lround(left_ + x * scale_)), static_cast<int>(std::lround(top_ - y * scale_)) };
+  }
+
   /// Point of the world as xdotool takes it.
   static std::string at(double x, double y)
   {
-    return std::to_string(std::lround(left_ + x * scale_)) + " " + std::to_string(std::lround(top_ - y * scale_));
+    const Pixel pixel = pixelOf(x, y);
+    return std::to_string(pixel.x) + " " + std::to_string(pixel.y);
   }
 
   static Display* display_;
@@ -204,8 +210,7 @@ TEST_F(Drive, aSpringPullsTheBlockUnderTheMouse)
 TEST_F(Drive, outsideOfAllTheNearestBlockIsTaken)
 {
   // 1.5 m from block1, whose right side is at x = -3.5, and 4.5 m from block2.
-  const msg::SpringForce spring =
-      click({ std::atoi(at(-2, 0.5).c_str()), static_cast<int>(std::lround(top_ - 0.5 * scale_)) }, 5.0);
+  const msg::SpringForce spring = click(pixelOf(-2, 0.5), 5.0);
   EXPECT_EQ(spring.body, "block1");
   EXPECT_NEAR(spring.attach.x, 0.5, 0.05) << "the nearest point of it, which by then has begun to move";
   EXPECT_NEAR(spring.attach.y, 0.5, PIXEL);
