@@ -31,8 +31,7 @@ constexpr int REFRESH_MS = 100;
 const char* const HELP = "<b>Drag</b> pulls a block; while paused moves it, with Ctrl turns it. "
                          "<b>SDFE</b>, <b>JKLI</b> or arrows thrust, with Shift spin. "
                          "<b>Space</b> pauses, <b>R</b> resets, <b>N</b> steps.";
-const char* const DRIVEN_BY[] = { "The block that S, D, F and E drive.", "The block that J, K, L, I and the arrows "
-                                                                         "drive." };
+const char* const DRIVEN_BY[] = { "S, D, F and E drive it.", "J, K, L, I and the arrows drive it." };
 
 /// A block on a spring.
 QIcon makeIcon()
