@@ -23,6 +23,23 @@ constexpr double kForceTruncation = 1e-13;
 
 /// s; arcs that are no parabolas are expanded anew at least this often, so that bounds over their horizon stay finite.
 constexpr double kLongest = 1048576.0;
+
+/// Span, at most horizon, within which the last orders change no velocity by more than the truncation error of the speeds there: positions may be
+/// large next to the motion.
+double velocityHorizon(const Arc& arc, double radius, int degree, double horizon)
+{
+  const auto speed = [&](int n) {
+    return n * std::max({ std::abs(arc.x[n]), std::abs(arc.y[n]), radius * std::abs(arc.angle[n]) }) * std::pow(horizon, n - 1);
+  };
+  double scale = 0.0;
+  for (int n = 1; n <= degree; ++n)
+    scale = std::max(scale, speed(n));
+  double span = horizon;
+  for (int n : { degree - 1, degree })
+    if (speed(n) > kTruncation * scale)
+      span = std::min(span, horizon * std::pow(kTruncation * scale / speed(n), 1.0 / (n - 1)));
+  return span;
+}
 }  // namespace
 
 bool endsMeet(double dx, double dy, double size)
@@ -466,6 +483,7 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
         if (top > 0.0)
           horizon = std::min(horizon, 0.8 * std::pow(kTruncation * size / top, 1.0 / n));
       }
+      horizon = std::min(horizon, velocityHorizon(arc, radius, degree, horizon));
       // The series of the directions in the body's frame converge for every span, but keep their digits up to one radian only.
       if (work_[i].trigonometric && arc.angle[1] != 0.0)
         horizon = std::min(horizon, 1.0 / std::abs(arc.angle[1]));
