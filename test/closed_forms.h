@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <tuple>
 #include <vector>
 
 #include "block_world/world.h"
@@ -122,6 +123,33 @@ inline std::pair<double, double> centralImpact(double mass_a, double va, double 
 {
   const double common = (mass_a * va + mass_b * vb) / (mass_a + mass_b);
   return { common + e * mass_b * (vb - va) / (mass_a + mass_b), common + e * mass_a * (va - vb) / (mass_a + mass_b) };
+}
+
+/// Unit masses on a line that hit one another in pairs, one hit after the other in the order of their times; returns the speeds once all is over.
+inline std::vector<double> rowOfHits(std::vector<double> x, std::vector<double> v, double e)
+{
+  for (;;)
+  {
+    std::size_t next = x.size();
+    double soonest = 0.0;
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+    {
+      if (!(v[i] > v[i + 1]))
+        continue;
+      const double span = (x[i + 1] - x[i]) / (v[i] - v[i + 1]);
+      if (next == x.size() || span < soonest)
+      {
+        next = i;
+        soonest = span;
+      }
+    }
+    if (next == x.size())
+      return v;
+    for (std::size_t i = 0; i < x.size(); ++i)
+      x[i] += soonest * v[i];
+    x[next + 1] = x[next];
+    std::tie(v[next], v[next + 1]) = centralImpact(1.0, v[next], 1.0, v[next + 1], e);
+  }
 }
 
 // ---------------------------------------------------------------------------------------------------- quadrature
