@@ -3,42 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "body.h"
 #include "contact_group.h"
+#include "random.h"
 #include "touch.h"
 
 namespace block_world
 {
 const double pi = std::acos(-1.0);
-
-/// Reproducible numbers: the same on every machine.
-class Random
-{
-public:
-  explicit Random(unsigned seed) : generator_(seed)
-  {
-  }
-  double in(double low, double high)
-  {
-    return low + (high - low) * (static_cast<double>(generator_()) / 4294967296.0);
-  }
-  Vec2 vector(double size)
-  {
-    const double x = in(-size, size);
-    return Vec2(x, in(-size, size));
-  }
-  int below(int end)
-  {
-    return static_cast<int>(generator_() % static_cast<unsigned>(end));
-  }
-
-private:
-  std::mt19937 generator_;
-};
 
 inline std::vector<Vec2> rectangle(double width, double height)
 {

@@ -1,6 +1,5 @@
 // B. Simultaneous impact.
 
-#include "bodies.h"
 #include "hard_cases.h"
 #include "simultaneous_scenes.h"
 

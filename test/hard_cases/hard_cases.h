@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "closed_forms.h"
+#include "random.h"
 #include "world_testing.h"
 
 // What the hard cases ask of a world besides its states.
