@@ -1,0 +1,123 @@
+// F. Forcing: thrusters, pulls, stiff springs, damping.
+
+#include "hard_cases.h"
+
+namespace block_world
+{
+namespace
+{
+SpringCommand pullAt(const std::string& body, const Vector2d& anchor, double stiffness)
+{
+  SpringCommand pull;
+  pull.body = body;
+  pull.anchor = anchor;
+  pull.stiffness = stiffness;
+  return pull;
+}
+
+// F1: a thruster pushes a falling block into the wall; both contacts bounce to rest.
+TEST(Forcing, ThrusterIntoTheWall)
+{
+  Block block = makeBox("a", { 0.5, 0.5 }, { 0, 1 });
+  block.thrusters = { Thruster{ Vector2d::Zero(), Vector2d::UnitX(), 6.0 } };
+  Walls walls = onFloor();
+  walls.right = 2.0;
+  Scene scene = makeScene(9.8, 0.5, { block }, walls);
+  scene.inputs = { { Time(), ThrustCommand{ "a", { 1.0 }, 100.0 } } };
+  World world(scene);
+  expectEnergyNeverGrows(world, 4.0, false);
+  MotionState rest;
+  rest.position = Vector2d(1.75, 0.25);
+  expectState(world.state(0), rest, 8.0 * rounding);
+  EXPECT_NEAR(restingForce(world, "wall_right"), 6.0, 1e-14);
+  EXPECT_NEAR(restingForce(world, "wall_bottom"), 9.8, 1e-14);
+  EXPECT_NEAR(world.energy().thrust_work, 6.0 * 1.75, 1e-13);
+  expectExact(world, 1e-13);
+  run(world, 5.0);
+  expectNothingHappens(world, 90.0);
+}
+
+// F3: the mouse pulls a block into the corner, farther away every 0.1 s. All is in balance, however strong: the forces to their own rounding (each
+// of two corners), the block where it was to that of its coordinates.
+TEST(Forcing, GrowingPull)
+{
+  Walls walls = onFloor();
+  walls.right = 1.0;
+  World world(makeScene(9.8, 0.5, { makeBox("a", { 0.5, 0.5 }, { 0.75, 0.25 }) }, walls));
+  for (int i = 1; i <= 1000; ++i)
+  {
+    ASSERT_TRUE(world.apply(pullAt("a", Vector2d(0.75 + i, 0.25 - 0.5 * i), 40.0)).ok);
+    run(world, 0.1 * i);
+    const double force = 40.0 * i;
+    ASSERT_NEAR(restingForce(world, "wall_right"), force, 1e-14 * force) << i;
+    ASSERT_NEAR(restingForce(world, "wall_bottom"), 9.8 + 0.5 * force, 1e-14 * force) << i;
+    ASSERT_NEAR((world.state(0).position - Vector2d(0.75, 0.25)).norm(), 0.0, 2.0 * rounding) << i;
+    ASSERT_NEAR(world.state(0).angle, 0.0, 2.0 * rounding) << i;
+  }
+  EXPECT_EQ(world.statistics().impacts, 0);
+  EXPECT_EQ(world.overlap(), 0.0);
+}
+
+// F4: a row squeezed between a wall and a pull: the same force all along, the spring's, to the rounding of ten forces.
+TEST(Forcing, SqueezedRow)
+{
+  Walls walls;
+  walls.right = 5.0;
+  std::vector<Block> blocks;
+  for (int i = 0; i < 5; ++i)
+    blocks.push_back(makeBox("b" + std::to_string(i), { 1, 1 }, { i + 0.5, 0 }));
+  World world(makeScene(0.0, 0.5, blocks, walls));
+  ASSERT_TRUE(world.apply(pullAt("b0", Vector2d(1.5, 0), 1e4)).ok);
+  run(world, 1.0);
+  const double error = 25.0 * rounding * 1e4;
+  EXPECT_NEAR(forceBetween(world, "b4", "wall_right"), 1e4, error);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_NEAR(forceBetween(world, blocks[i].name, blocks[i + 1].name), 1e4, error) << i;
+  for (int i = 0; i < 5; ++i)
+    EXPECT_EQ(world.state(i).position, blocks[i].position) << i;
+  EXPECT_EQ(world.statistics().impacts, 0);
+}
+
+// F5: no step is too stiff. The phase sqrt(k) t counts turns of 1 rad whose rounding is its own; the energy keeps 1e-13.
+TEST(Forcing, StiffSpring)
+{
+  for (const double stiffness : { 1e2, 1e3, 1e4, 1e5, 1e6 })
+  {
+    SCOPED_TRACE(stiffness);
+    World world(makeScene(0.0, 1.0, { makeBox("a", { 1, 1 }, { 1, 0 }) }));
+    world.apply(pullAt("a", Vector2d::Zero(), stiffness));
+    const double start = world.energy().total, phase = std::sqrt(stiffness);
+    EXPECT_DOUBLE_EQ(start, 0.5 * stiffness);
+    EXPECT_NEAR(stateAt(world, 1.0).position.x(), std::cos(phase), 8.0 * rounding * phase);
+    EXPECT_NEAR(world.energy().total / start, 1.0, 1e-13);
+    expectExact(world, 1e-13 * start);
+  }
+}
+
+// F6: no damping jumps or stalls, from none to 1e6 1/s, where a step would have to be 1e-6 s. The decay exp(-k t) is expanded anew in arcs of some
+// 1/k s until it is gone.
+TEST(Forcing, DampingFromNoneToHuge)
+{
+  MotionState undamped;
+  for (const double damping : { 0.0, 1e-12, 1.0, 1e3, 1e6 })
+  {
+    SCOPED_TRACE(damping);
+    Scene scene = makeScene(9.8, 1.0, { moving(makeBox("a", { 1, 1 }, { 0, 0 }), { 1, 0 }, 1.0) });
+    scene.damping = damping;
+    World world(scene);
+    const MotionState from = world.state(0);
+    expectState(stateAt(world, 1.0), closed_form::dampedFlight(from, 1.0, 1.0 / 6.0, damping, 0.1, 9.8, 1.0), 1e-14 * 9.8);
+    if (damping == 0.0)
+      undamped = world.state(0);
+    if (damping == 1e-12)  // the first order in k, t = 1: x' = -k x
+      expectState(world.state(0), undamped, 1e-11);
+    if (damping == 1e6)
+    {
+      EXPECT_NEAR(world.state(0).velocity.y(), -9.8e-6, 1e-20);
+      EXPECT_LT(world.statistics().events, 1000);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace block_world
