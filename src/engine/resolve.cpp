@@ -5,6 +5,12 @@
 
 namespace block_world
 {
+namespace
+{
+/// s; instants differ by this at least (Time).
+constexpr double kInstant = 2.220446049250313e-16;
+}  // namespace
+
 const Snapshot& World::Engine::snapshot(int body, const Time& time)
 {
   Cached& cached = cache_[body];
@@ -267,7 +273,6 @@ void World::Engine::resolve(const Time& time)
   ContactScales scales;
   scales.tolerance = scene.tolerance;
   scales.resolution = resolution_;
-  scales.closed = 2.0 * detector_.guard();
   scales.dissipative = dissipative_;
   former_rests_.clear();
   // Corner on corner is decided by the velocities: look again with the new ones.
@@ -287,6 +292,11 @@ void World::Engine::resolve(const Time& time)
       break;
     }
     group_.prepare();
+    // Between the last instant before a contact and the next one, what is fast moves by more than coordinates resolve.
+    double fastest = 0.0;
+    for (const Touch& touch : group_.touches)
+      fastest = std::max(fastest, -touch.approach);
+    scales.closed = 2.0 * detector_.guard() + kInstant * fastest;
     impact_loss_ += group_.collide(scales);
     const bool again = velocity_decided_ && round < 8 && group_.struck();
     report(time, !again);

@@ -83,7 +83,7 @@ TEST(Cost, GasOfHundred)
 
 TEST(Cost, GasOfThousand)
 {
-  expectGas(32, 0.1, 200);
+  expectGas(32, 0.5, 500);
 }
 
 /// Boxes with masses of 1 to 100 kg at random turns over one another in a bin.
@@ -125,12 +125,13 @@ TEST(Cost, HeapOfTwelve)
 
 TEST(Cost, HeapOfTwentyFour)
 {
-  expectHeapSettles(24, 10.0);
+  expectHeapSettles(24, 4.0);
 }
 
-TEST(Cost, HeapOfFifty)
+// Takes minutes. --gtest_also_run_disabled_tests --gtest_filter=*HeapOfFifty*
+TEST(Cost, DISABLED_HeapOfFifty)
 {
-  expectHeapSettles(50, 5.0);
+  expectHeapSettles(50, 4.0);
 }
 
 }  // namespace
