@@ -167,36 +167,6 @@ TEST(Commands, SetThrustAndElasticity)
   expectExact(world, 1e-15);
 }
 
-// G3, G4: what stood on a block that is taken away falls freely from that instant.
-TEST(Commands, SupportTakenAway)
-{
-  for (const bool deleted : { false, true })
-  {
-    World world(shipped("stack"));
-    run(world, 1.0);
-    SetStateCommand away;
-    away.body = "block5";
-    away.position = Vector2d(5.0, 0.5);
-    ASSERT_TRUE((deleted ? world.apply(DeleteCommand{ "block5" }) : world.apply(away)).ok);
-    const double t = 0.25;
-    run(world, 1.0 + t);
-    for (int k = 1; k <= 10; ++k)
-    {
-      const int body = world.find("block" + std::to_string(k));
-      if (k == 5)
-      {
-        EXPECT_EQ(body, deleted ? -1 : 4);
-        continue;
-      }
-      EXPECT_NEAR(world.state(body).velocity.y(), k > 5 ? -9.8 * t : 0.0, 1e-13) << k;
-      EXPECT_NEAR(world.state(body).position.y(), k - 0.5 - (k > 5 ? 4.9 * t * t : 0.0), 1e-13) << k;
-    }
-    EXPECT_NEAR(world.energy().command_work, deleted ? -9.8 * 4.5 : -9.8 * 4.0, 1e-12);
-    run(world, 5.0);
-    expectExact(world, 1e-9);
-  }
-}
-
 TEST(Commands, SpawnAndDelete)
 {
   World world(makeThree(9.8));
@@ -217,19 +187,6 @@ TEST(Commands, SpawnAndDelete)
   EXPECT_NEAR(world.state(0).velocity.y(), -9.8, 1e-14);
   run(world, 1.5);
   expectExact(world, 1e-11);
-}
-
-// G1: an overlap below the tolerance is taken out, each block moving half, and gives no velocity.
-TEST(Commands, SpawnThatBarelyOverlaps)
-{
-  World world(makeScene(0.0, 1.0, { makeBox("a", { 1, 1 }, { 0, 0 }) }));
-  ASSERT_TRUE(world.apply(SpawnCommand{ makeBox("b", { 1, 1 }, { 1.0 - 4e-7, 0 }) }).ok);
-  EXPECT_NEAR(world.state(0).position.x(), -2e-7, 1e-15);
-  EXPECT_NEAR(world.state(1).position.x(), 1.0 - 2e-7, 1e-15);
-  for (int i = 0; i < 2; ++i)
-    EXPECT_EQ(world.state(i).velocity.norm() + std::abs(world.state(i).omega), 0.0);
-  run(world, 1.0);
-  expectExact(world, 1e-15);
 }
 
 struct Refusal

@@ -7,9 +7,10 @@ namespace block_world
 {
 namespace
 {
+// B1, B2
 TEST(Simultaneous, Cradle)
 {
-  World one(makeRow(1.0, { 1, 1, 1, 1, 1 }, { 1, 0, 0, 0, 0 }));
+  World one(shipped("cradle"));
   run(one, 1.0);
   expectSpeeds(one, 0, { 0, 0, 0, 0, 1 }, 1e-15);
   World two(makeRow(1.0, { 1, 1, 1, 1, 1 }, { 1, 1, 0, 0, 0 }));

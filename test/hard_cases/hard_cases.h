@@ -30,8 +30,8 @@ inline void expectMomentumAndEnergy(const EnergyAccount& found, const EnergyAcco
 }
 
 /// Runs on to `seconds` and looks at the energy without the work done: it never grows, and where nothing can be lost it never falls. To 1e-12 of the
-/// largest energy at work, however long: each event rounds by some 1e-16, up or down.
-inline void expectEnergyNeverGrows(World& world, double seconds, bool lossless, int looks = 200)
+/// largest energy at work unless told otherwise: each event rounds by some 1e-16, up or down.
+inline void expectEnergyNeverGrows(World& world, double seconds, bool lossless, int looks = 200, double share = 1e-12)
 {
   const auto free = [](const EnergyAccount& now) {
     return now.total - now.thrust_work - now.spring_work - now.command_work;
@@ -47,10 +47,10 @@ inline void expectEnergyNeverGrows(World& world, double seconds, bool lossless, 
     const EnergyAccount now = world.energy();
     const double energy = free(now);
     size = std::max(size, sizeOf(now));
-    ASSERT_LE(energy, lowest + 1e-12 * size) << "at " << world.now().seconds() << " s";
+    ASSERT_LE(energy, lowest + share * size) << "at " << world.now().seconds() << " s";
     if (lossless)
     {
-      ASSERT_GE(energy, first - 1e-12 * size) << "at " << world.now().seconds() << " s";
+      ASSERT_GE(energy, first - share * size) << "at " << world.now().seconds() << " s";
     }
     lowest = std::min(lowest, energy);
   }

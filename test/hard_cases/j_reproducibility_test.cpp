@@ -226,6 +226,7 @@ TEST(Order, OfTheBlocksThatCollide)
   }
 }
 
+// Off the table, speeds are by now amplified a hundredfold.
 TEST(Order, OfTheBlocksThatRestAndSlide)
 {
   expectOrderDoesNotMatter(shipped("stack"), 2.0, 0.0);

@@ -97,7 +97,7 @@ inline std::vector<Collision> makeCollisions()
 {
   const std::vector<double> ones(5, 1.0), first{ 1, 0, 0, 0, 0 }, both{ 1, 1, 0, 0, 0 };
   return {
-    { "B1 cradle", makeRow(1.0, ones, first), 1.0 },
+    { "B1 cradle", shipped("cradle"), 1.0 },
     { "B2 cradle, two incoming", makeRow(1.0, ones, both), 1.0 },
     { "B3 cradle, e = .9", makeRow(0.9, ones, first), 20.0 },
     { "B4 unequal masses", makeRow(1.0, { 1, 1000, 1 }, { 1, 0, 0 }), 0.1 },
