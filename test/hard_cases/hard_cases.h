@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cstdint>
 
@@ -29,7 +31,43 @@ inline void expectMomentumAndEnergy(const EnergyAccount& found, const EnergyAcco
   EXPECT_NEAR(found.total, wanted.total, energy);
 }
 
-/// Runs on to `seconds` and looks at the energy without the work done: it never grows, and where nothing can be lost it never falls. To 1e-12 of the
+/// Deepest overlap of two blocks: what is left of it along the best of all their faces' normals. Worked out here, from the states.
+inline double deepestOverlap(const World& world)
+{
+  std::vector<std::vector<Vector2d>> corners(world.bodyCount());
+  std::vector<double> radius(world.bodyCount(), 0.0);
+  for (int i = 0; i < world.bodyCount(); ++i)
+  {
+    const Eigen::Rotation2Dd turn(world.state(i).angle);
+    for (const Vector2d& vertex : world.block(i).vertices)
+    {
+      corners[i].push_back(world.state(i).position + turn * vertex);
+      radius[i] = std::max(radius[i], vertex.norm());
+    }
+  }
+  // The widest gap between i and j that a face of i shows.
+  const auto gap = [&](int i, int j) {
+    double widest = -1e300;
+    for (std::size_t k = 0; k < corners[i].size(); ++k)
+    {
+      const Vector2d &from = corners[i][k], side = (corners[i][(k + 1) % corners[i].size()] - from).normalized();
+      double nearest = 1e300;
+      for (const Vector2d& corner : corners[j])
+        nearest = std::min(nearest, -closed_form::cross(side, corner - from));
+      widest = std::max(widest, nearest);
+    }
+    return widest;
+  };
+  double deepest = 0.0;
+  for (int i = 0; i < world.bodyCount(); ++i)
+    for (int j = i + 1; j < world.bodyCount(); ++j)
+      if (!(world.isFixed(i) && world.isFixed(j)) &&
+          (world.state(i).position - world.state(j).position).norm() < radius[i] + radius[j])
+        deepest = std::max(deepest, -std::max(gap(i, j), gap(j, i)));
+  return deepest;
+}
+
+/// Runs on to `seconds` and looks at the energy without the work done: it never grows, and where nothing can be lost it never falls, and nothing overlaps. To 1e-12 of the
 /// largest energy at work unless told otherwise: each event rounds by some 1e-16, up or down.
 inline void expectEnergyNeverGrows(World& world, double seconds, bool lossless, int looks = 200, double share = 1e-12)
 {
@@ -47,6 +85,7 @@ inline void expectEnergyNeverGrows(World& world, double seconds, bool lossless, 
     const EnergyAccount now = world.energy();
     const double energy = free(now);
     size = std::max(size, sizeOf(now));
+    ASSERT_LE(deepestOverlap(world), world.scene().tolerance) << "at " << world.now().seconds() << " s";
     ASSERT_LE(energy, lowest + share * size) << "at " << world.now().seconds() << " s";
     if (lossless)
     {
