@@ -49,8 +49,9 @@ TEST(Bouncing, NineteenBouncesAtTheFinestTolerance)
   EXPECT_EQ(world.statistics().impacts, 19);
 }
 
-// A2. An instant of contact is known to the rounding of the time and of a height over a speed of 4 m/s, some 2e-16 s; so is each period's length. After n
-// of them their sum is off by n, and the speed's own errors (1e-16 each, relative) by n^2/2, times 0.85 s.
+// A2. An instant of contact is known to the rounding of the time and of a height over a speed of 4 m/s, some 2e-16 s;
+// so is each period's length. After n of them their sum is off by n, and the speed's own errors (1e-16 each, relative)
+// by n^2/2, times 0.85 s.
 TEST(Bouncing, ElasticForEver)
 {
   World world(makeDrop(1.0, 0.0));
@@ -116,7 +117,8 @@ TEST(Bouncing, SlowApproachThatNothingPresses)
     }
 }
 
-// The energy never grows, and where nothing is lost it stays: upright and tumbling, short and long, resting and gliding.
+// The energy never grows, and where nothing is lost it stays: upright and tumbling, short and long, resting and
+// gliding.
 TEST(Bouncing, EnergyNeverGrows)
 {
   const auto tumbling = [](double e) {
@@ -128,10 +130,10 @@ TEST(Bouncing, EnergyNeverGrows)
     Scene scene;
     double seconds;
   } cases[] = {
-    { "flat, elastic", makeDrop(1.0, 0.5), 1000.0 },  { "flat, to rest", makeDrop(0.5, 0.5), 3.0 },
-    { "flat, lively", makeDrop(0.999, 0.5), 900.0 },  { "tumbling, elastic", tumbling(1.0), 1000.0 },
-    { "tumbling, lively", tumbling(0.99), 100.0 },    { "tumbling, to rest", tumbling(0.5), 10.0 },
-    { "tumbling, inelastic", tumbling(0.0), 10.0 },   { "ladder", shipped("ladder"), 3.0 },
+    { "flat, elastic", makeDrop(1.0, 0.5), 1000.0 }, { "flat, to rest", makeDrop(0.5, 0.5), 3.0 },
+    { "flat, lively", makeDrop(0.999, 0.5), 900.0 }, { "tumbling, elastic", tumbling(1.0), 1000.0 },
+    { "tumbling, lively", tumbling(0.99), 100.0 },   { "tumbling, to rest", tumbling(0.5), 10.0 },
+    { "tumbling, inelastic", tumbling(0.0), 10.0 },  { "ladder", shipped("ladder"), 3.0 },
     { "off a table", shipped("table_slide"), 5.0 },
   };
   for (const auto& c : cases)

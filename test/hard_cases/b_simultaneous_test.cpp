@@ -18,8 +18,9 @@ TEST(Simultaneous, Cradle)
   expectSpeeds(two, 0, { 0, 0, 0, 1, 1 }, 1e-15);
 }
 
-// B3. Separate blocks hit one another in pairs, one after the other: the reference computes those hits on a line. Without any gap the engine has no
-// order to follow; its stages agree with the limit of small gaps to the four digits in which the orders of the hits agree among themselves.
+// B3. Separate blocks hit one another in pairs, one after the other: the reference computes those hits on a line.
+// Without any gap the engine has no order to follow; its stages agree with the limit of small gaps to the four digits
+// in which the orders of the hits agree among themselves.
 TEST(Simultaneous, CradleThatLoses)
 {
   const std::vector<double> ones(5, 1.0), speeds{ 1, 0, 0, 0, 0 };
@@ -65,8 +66,9 @@ TEST(Simultaneous, FlatLanding)
   }
 }
 
-// B6. Rigid impact is discontinuous: corners that land within the tolerance of one another land together, others in three hits. The limit of small
-// tilts follows from three single hits; at a finite tilt the arms and heights differ in proportion to it.
+// B6. Rigid impact is discontinuous: corners that land within the tolerance of one another land together, others in
+// three hits. The limit of small tilts follows from three single hits; at a finite tilt the arms and heights differ in
+// proportion to it.
 TEST(Simultaneous, TiltLadder)
 {
   const double fall = std::sqrt(2.0 * 9.8 * 0.75), inertia = 1.25 / 12.0, rest = 0.5 - fall / 9.8;
@@ -81,7 +83,8 @@ TEST(Simultaneous, TiltLadder)
     for (const double tilt : { 0.0, 1e-15, 1e-12, 1e-9, 1e-6, 1e-3 })
       for (const double side : { 1.0, -1.0 })
       {
-        SCOPED_TRACE("tolerance " + std::to_string(std::log10(tolerance)) + ", tilt " + std::to_string(tilt * 1e9) + "e-9");
+        SCOPED_TRACE("tolerance " + std::to_string(std::log10(tolerance)) + ", tilt " + std::to_string(tilt * 1e9) +
+                     "e-9");
         World world(makeTiltedLanding(side * tilt, tolerance));
         const MotionState after = stateAt(world, 0.5);
         const int impacts = static_cast<int>(world.statistics().impacts);
@@ -95,7 +98,8 @@ TEST(Simultaneous, TiltLadder)
         {
           EXPECT_EQ(impacts, 3);
         }
-        // First order in the tilt, of coefficients below 10 (3.4897 and 2.5992 at 1e-3); dividing a rounded height by a lever costs nothing.
+        // First order in the tilt, of coefficients below 10 (3.4897 and 2.5992 at 1e-3); dividing a rounded height by a
+        // lever costs nothing.
         const double error = 10.0 * tilt + 1e-13;
         EXPECT_NEAR(after.velocity.y() + 9.8 * rest, impacts == 1 ? fall : box.velocity.y(), error);
         EXPECT_NEAR(after.omega, impacts == 1 ? 0.0 : side * box.omega, error);
@@ -162,8 +166,8 @@ TEST(Simultaneous, LockedCones)
   expectExact(cell, 1e-13);
 }
 
-/// Regular polygon of `count` corners on the unit circle, its first face in the direction `angle`, held by fixed blocks along some of its faces.
-/// They are placed by their own turned frames, so that the gaps are closed to rounding only.
+/// Regular polygon of `count` corners on the unit circle, its first face in the direction `angle`, held by fixed blocks
+/// along some of its faces. They are placed by their own turned frames, so that the gaps are closed to rounding only.
 Scene makeHeld(int count, const std::vector<int>& faces, double angle, const Vector2d& velocity, double omega)
 {
   Block held;
@@ -176,14 +180,15 @@ Scene makeHeld(int count, const std::vector<int>& faces, double angle, const Vec
   for (const int k : faces)
   {
     const double turn = angle + 2 * k * pi / count, distance = std::cos(pi / count) + 0.5;
-    blocks.push_back(fixedOne(makeBox("jaw" + std::to_string(k), { 1, 0.2 },
-                                      distance * Vector2d(std::cos(turn), std::sin(turn)), turn)));
+    blocks.push_back(fixedOne(
+        makeBox("jaw" + std::to_string(k), { 1, 0.2 }, distance * Vector2d(std::cos(turn), std::sin(turn)), turn)));
   }
   return makeScene(0.0, 1.0, blocks);
 }
 
-// B10 at random: faces that hold all around lock the polygon (each pair of corners takes the turn away too), others let it go with all its energy.
-// Gordan's alternative in the plane: it is held if no gap between neighbouring faces reaches half a turn.
+// B10 at random: faces that hold all around lock the polygon (each pair of corners takes the turn away too), others let
+// it go with all its energy. Gordan's alternative in the plane: it is held if no gap between neighbouring faces reaches
+// half a turn.
 TEST(Simultaneous, HeldAllAroundOrNot)
 {
   Random random(7);

@@ -8,8 +8,9 @@ namespace block_world
 {
 namespace
 {
-/// A stack of unit squares stands on representable heights: there is nothing to round, so nothing may change. Each joint carries the weight above it,
-/// half at each corner. The equations of its force balance accelerations f / m of the lighter block, whose rounding the whole mass would have to follow.
+/// A stack of unit squares stands on representable heights: there is nothing to round, so nothing may change. Each
+/// joint carries the weight above it, half at each corner. The equations of its force balance accelerations f / m of
+/// the lighter block, whose rounding the whole mass would have to follow.
 void expectStackStands(World& world, const std::vector<double>& masses)
 {
   const int n = static_cast<int>(masses.size());
@@ -56,8 +57,8 @@ TEST(Resting, Stacks)
   }
 }
 
-// C4: a pyramid of bricks, each on the ends of two, whose contacts are redundant: only their sums are unique. Each brick
-// gets from below what comes from above, and its own weight.
+// C4: a pyramid of bricks, each on the ends of two, whose contacts are redundant: only their sums are unique. Each
+// brick gets from below what comes from above, and its own weight.
 void expectPyramidStands(int rows)
 {
   std::vector<Block> blocks;
@@ -106,8 +107,8 @@ TEST(Resting, DISABLED_PyramidOfFortyRows)
   expectPyramidStands(40);
 }
 
-// C5: after a million seconds without an event a block slides into the lowest of the stack, 4 m on at 1 m/s. Its impact is at that second exactly;
-// both share the speed as 1 + e to 1 - e, and those above only stand on what slides off.
+// C5: after a million seconds without an event a block slides into the lowest of the stack, 4 m on at 1 m/s. Its impact
+// is at that second exactly; both share the speed as 1 + e to 1 - e, and those above only stand on what slides off.
 TEST(Resting, WaitsAMillionSecondsAndIsHit)
 {
   std::vector<double> masses(10, 1.0);
@@ -189,7 +190,8 @@ TEST(Resting, OnTheOuterFeet)
   EXPECT_NEAR(restingForce(world, "foot3"), 0.6875 * 9.8, 1e-14 * 9.8);
 }
 
-// C7: the middle one too high by 1 mm: tips onto the right one and rests on both, tilted; without friction it then slides down along them.
+// C7: the middle one too high by 1 mm: tips onto the right one and rests on both, tilted; without friction it then
+// slides down along them.
 TEST(Resting, OnTiltedFeet)
 {
   World world = makeFeet(0.3, 1e-3);

@@ -30,8 +30,8 @@ TEST(Sliding, LadderLeavesTheWall)
   expectExact(world, 1e-13);
 }
 
-// D6: at that instant the gap, its rate and its acceleration are all zero, so that it opens as the time cubed. That takes the release itself, the end
-// of arcs and a few looks, and no creeping.
+// D6: at that instant the gap, its rate and its acceleration are all zero, so that it opens as the time cubed. That
+// takes the release itself, the end of arcs and a few looks, and no creeping.
 TEST(Sliding, ReleaseTakesFewEvents)
 {
   for (const double tolerance : { 1e-6, 1e-12 })
@@ -72,8 +72,8 @@ TEST(Sliding, RodFallsWithACornerOnTheFloor)
   expectExact(world, 1e-12);
 }
 
-// D2: it tilts over the corner of a fixed block while it slides along it. The reference has 15 digits; an error of the start grows by a fifth at most
-// (found by differences of runs).
+// D2: it tilts over the corner of a fixed block while it slides along it. The reference has 15 digits; an error of the
+// start grows by a fifth at most (found by differences of runs).
 TEST(Sliding, RodOverACorner)
 {
   const double tilt = -0.3, along = 0.2, half = 0.05;
@@ -90,8 +90,8 @@ TEST(Sliding, RodOverACorner)
   expectExact(world, 1e-13);
 }
 
-// D3: slides off a table, tips over its edge, tumbles: two releases, four impacts, which turn an error of the start into 26 times as much (found by
-// differences of runs). Reference with 33 digits, given to 12 decimals.
+// D3: slides off a table, tips over its edge, tumbles: two releases, four impacts, which turn an error of the start
+// into 26 times as much (found by differences of runs). Reference with 33 digits, given to 12 decimals.
 TEST(Sliding, OffATable)
 {
   for (const double tolerance : { 1e-6, 1e-9, 1e-12 })
@@ -110,8 +110,8 @@ TEST(Sliding, OffATable)
   }
 }
 
-// D7: a spinning block's corner passes the floor at height c. Where it dips below, it comes in at w = sqrt(2 |c| omega^2 rho) = 2.4e-4 m/s at most,
-// its arm nearly upright, so the block leaves at 2 w; above, nothing happens.
+// D7: a spinning block's corner passes the floor at height c. Where it dips below, it comes in at w = sqrt(2 |c|
+// omega^2 rho) = 2.4e-4 m/s at most, its arm nearly upright, so the block leaves at 2 w; above, nothing happens.
 TEST(Sliding, Grazing)
 {
   const double radius = std::hypot(0.25, 0.15);

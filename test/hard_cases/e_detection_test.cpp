@@ -43,15 +43,18 @@ TEST(Detection, ThinFastRods)
                             fixedOne(makeBox("wall", { 0.01, 20 }, { 0.005, 0 })) }));
     const double energy = world.energy().total;
     run(world, 0.1);
-    // Heights of 1 m are rounded over tens of m/s: 1e-16 s of itself; but the corner may come in as slow as 1 m/s, when it spins back.
-    EXPECT_NEAR(firstContact(world, ContactKind::Impact).time.seconds(), arrival(size, -1, angle, speed, omega, 1e-6), 1e-14);
+    // Heights of 1 m are rounded over tens of m/s: 1e-16 s of itself; but the corner may come in as slow as 1 m/s, when
+    // it spins back.
+    EXPECT_NEAR(firstContact(world, ContactKind::Impact).time.seconds(), arrival(size, -1, angle, speed, omega, 1e-6),
+                1e-14);
     EXPECT_LT(world.state(0).position.x(), 0.0);
     EXPECT_NEAR(world.energy().total / energy, 1.0, 1e-14);
     expectExact(world, 1e-14 * energy);
   }
 }
 
-// E2: small blocks at 30 to 70 m/s at the flat side of a free one 2 cm thick, masses by area. The first hit is that of a point on a face.
+// E2: small blocks at 30 to 70 m/s at the flat side of a free one 2 cm thick, masses by area. The first hit is that of
+// a point on a face.
 TEST(Detection, FastBlocksAtAThinOne)
 {
   Random random(2);
@@ -76,7 +79,8 @@ TEST(Detection, FastBlocksAtAThinOne)
   }
 }
 
-// E3: a spinner at 1000 rad/s drifts to a wall, 50 s away: 8000 turns without a look, some looks near the wall, one hit that turns it back.
+// E3: a spinner at 1000 rad/s drifts to a wall, 50 s away: 8000 turns without a look, some looks near the wall, one hit
+// that turns it back.
 TEST(Detection, Spinner)
 {
   Walls walls;
@@ -96,8 +100,8 @@ TEST(Detection, Spinner)
   expectExact(world, 1e-14 * energy);
 }
 
-// So fast that the instants which can be told apart, 1e-16 s, leave a gap that coordinates resolve: between walls, flat and turned, at 10 and 1000 km/s. A
-// hit every 2 m / v of the flat one.
+// So fast that the instants which can be told apart, 1e-16 s, leave a gap that coordinates resolve: between walls, flat
+// and turned, at 10 and 1000 km/s. A hit every 2 m / v of the flat one.
 TEST(Detection, FasterThanInstantsResolve)
 {
   for (const double speed : { 1e4, 1e6 })

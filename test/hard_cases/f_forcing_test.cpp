@@ -37,8 +37,8 @@ TEST(Forcing, ThrusterIntoTheWall)
   expectNothingHappens(world, 90.0);
 }
 
-// F3: the mouse pulls a block into the corner, farther away every 0.1 s. All is in balance, however strong: the forces to their own rounding (each
-// of two corners), the block where it was to that of its coordinates.
+// F3: the mouse pulls a block into the corner, farther away every 0.1 s. All is in balance, however strong: the forces
+// to their own rounding (each of two corners), the block where it was to that of its coordinates.
 TEST(Forcing, GrowingPull)
 {
   Walls walls = onFloor();
@@ -78,7 +78,8 @@ TEST(Forcing, SqueezedRow)
   EXPECT_EQ(world.statistics().impacts, 0);
 }
 
-// F5: no step is too stiff. The phase sqrt(k) t counts turns of 1 rad whose rounding is its own; the energy keeps 1e-13.
+// F5: no step is too stiff. The phase sqrt(k) t counts turns of 1 rad whose rounding is its own; the energy keeps
+// 1e-13.
 TEST(Forcing, StiffSpring)
 {
   for (const double stiffness : { 1e2, 1e3, 1e4, 1e5, 1e6 })
@@ -101,7 +102,8 @@ Scene makeDamped(double damping)
   return scene;
 }
 
-// F6: from none to huge, nothing jumps. Positions are as exact as the arcs, 1e-15 m; a speed of k times that may hide in them.
+// F6: from none to huge, nothing jumps. Positions are as exact as the arcs, 1e-15 m; a speed of k times that may hide
+// in them.
 TEST(Forcing, DampingFromNoneToHuge)
 {
   MotionState undamped;
@@ -123,7 +125,8 @@ TEST(Forcing, DampingFromNoneToHuge)
   }
 }
 
-// F6: at 1e6 1/s the decay is over after 40 microseconds; what remains is a straight line at g/k, which needs no small steps.
+// F6: at 1e6 1/s the decay is over after 40 microseconds; what remains is a straight line at g/k, which needs no small
+// steps.
 TEST(Forcing, HugeDampingNeedsNoSmallSteps)
 {
   World world(makeDamped(1e6));

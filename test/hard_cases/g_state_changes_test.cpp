@@ -28,8 +28,10 @@ void expectRefused(const Scene& scene, const Command& command, const std::vector
 // G1
 TEST(StateChanges, SpawnThatOverlaps)
 {
-  expectRefused(makeScene(0.0, 1.0, { makeBox("old", { 1, 1 }, { 0, 0 }), moving(makeBox("other", { 1, 1 }, { 5, 0 }), { 1, 0 }) }),
-                SpawnCommand{ makeBox("new", { 1, 1 }, { 0.9, 0 }) }, { "old", "new" });
+  expectRefused(
+      makeScene(0.0, 1.0,
+                { makeBox("old", { 1, 1 }, { 0, 0 }), moving(makeBox("other", { 1, 1 }, { 5, 0 }), { 1, 0 }) }),
+      SpawnCommand{ makeBox("new", { 1, 1 }, { 0.9, 0 }) }, { "old", "new" });
 }
 
 // G1: an overlap below the tolerance is taken out, each block moving half, and gives no velocity.
@@ -51,10 +53,11 @@ TEST(StateChanges, SpawnThatBarelyOverlaps)
 // G2: a block of 1 into 0.9, between fixed blocks and between walls.
 TEST(StateChanges, SpawnWithoutRoom)
 {
-  expectRefused(makeScene(9.8, 1.0,
-                          { fixedOne(makeBox("left", { 1, 1 }, { -0.95, 0 })), fixedOne(makeBox("right", { 1, 1 }, { 0.95, 0 })),
-                            makeBox("falling", { 1, 1 }, { 0, 9 }) }),
-                SpawnCommand{ makeBox("new", { 1, 1 }, { 0, 0 }) }, { "new", "left" });
+  expectRefused(
+      makeScene(9.8, 1.0,
+                { fixedOne(makeBox("left", { 1, 1 }, { -0.95, 0 })), fixedOne(makeBox("right", { 1, 1 }, { 0.95, 0 })),
+                  makeBox("falling", { 1, 1 }, { 0, 9 }) }),
+      SpawnCommand{ makeBox("new", { 1, 1 }, { 0, 0 }) }, { "new", "left" });
   Walls walls;
   walls.left = 0.0;
   walls.right = 0.9;
@@ -77,7 +80,8 @@ TEST(StateChanges, SetStateInFlight)
   const MotionState from = world.state(0);
   EXPECT_EQ(from.position, put.position);
   EXPECT_EQ(from.velocity, put.velocity);
-  expectState(stateAt(world, 1.5), closed_form::dampedFlight(from, 1.0, 1.0 / 6.0, 0.0, 0.1, 9.8, 1.0), 8.0 * rounding * 20.0);
+  expectState(stateAt(world, 1.5), closed_form::dampedFlight(from, 1.0, 1.0 / 6.0, 0.0, 0.1, 9.8, 1.0),
+              8.0 * rounding * 20.0);
   expectExact(world, 1e-13);
 }
 

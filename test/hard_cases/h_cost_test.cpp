@@ -56,7 +56,8 @@ Scene makeGas(int side_by_side, double side, double tolerance)
     const double room = 0.5 - 0.5 * side * (std::abs(std::cos(angle)) + std::abs(std::sin(angle)));
     const Vector2d cell(i % side_by_side + 0.5, i / side_by_side + 0.5), place = cell + random.vector(0.99 * room);
     const Vector2d velocity = random.vector(1.0);
-    blocks.push_back(moving(makeBox("b" + std::to_string(i), { side, side }, place, angle), velocity, random.in(-1.0, 1.0)));
+    blocks.push_back(
+        moving(makeBox("b" + std::to_string(i), { side, side }, place, angle), velocity, random.in(-1.0, 1.0)));
   }
   Scene scene = makeScene(0.0, 1.0, blocks);
   scene.walls = Walls{ 0.0, 1.0 * side_by_side, 0.0, 1.0 * side_by_side };
@@ -94,7 +95,8 @@ Scene makeHeap(int count)
   for (int i = 0; i < count; ++i)
   {
     const Vector2d size(random.in(0.4, 1.0), random.in(0.4, 1.0)), place(1.5 * (i % 4) - 2.25, 1.0 + 1.5 * (i / 4));
-    blocks.push_back(withMass(makeBox("b" + std::to_string(i), size, place, random.in(-pi, pi)), std::pow(10.0, random.in(0.0, 2.0))));
+    blocks.push_back(withMass(makeBox("b" + std::to_string(i), size, place, random.in(-pi, pi)),
+                              std::pow(10.0, random.in(0.0, 2.0))));
   }
   Walls walls = onFloor();
   walls.left = -3.2;
@@ -102,7 +104,8 @@ Scene makeHeap(int count)
   return makeScene(9.8, 0.3, blocks, walls);
 }
 
-// H3: a heap settles: never stuck, no overlap, no energy made. Without friction it does not freeze, but its centre comes down to rest.
+// H3: a heap settles: never stuck, no overlap, no energy made. Without friction it does not freeze, but its centre
+// comes down to rest.
 void expectHeapSettles(int count, double seconds)
 {
   const Scene scene = makeHeap(count);

@@ -31,7 +31,8 @@ inline void expectMomentumAndEnergy(const EnergyAccount& found, const EnergyAcco
   EXPECT_NEAR(found.total, wanted.total, energy);
 }
 
-/// Deepest overlap of two blocks: what is left of it along the best of all their faces' normals. Worked out here, from the states.
+/// Deepest overlap of two blocks: what is left of it along the best of all their faces' normals. Worked out here, from
+/// the states.
 inline double deepestOverlap(const World& world)
 {
   std::vector<std::vector<Vector2d>> corners(world.bodyCount());
@@ -67,8 +68,9 @@ inline double deepestOverlap(const World& world)
   return deepest;
 }
 
-/// Runs on to `seconds` and looks at the energy without the work done: it never grows, and where nothing can be lost it never falls, and nothing overlaps. To 1e-12 of the
-/// largest energy at work unless told otherwise: each event rounds by some 1e-16, up or down.
+/// Runs on to `seconds` and looks at the energy without the work done: it never grows, and where nothing can be lost it
+/// never falls, and nothing overlaps. To 1e-12 of the largest energy at work unless told otherwise: each event rounds
+/// by some 1e-16, up or down.
 inline void expectEnergyNeverGrows(World& world, double seconds, bool lossless, int looks = 200, double share = 1e-12)
 {
   const auto free = [](const EnergyAccount& now) {

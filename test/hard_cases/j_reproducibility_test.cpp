@@ -203,7 +203,8 @@ std::map<ContactKind, int> countContacts(World& world)
   return count;
 }
 
-/// Runs a scene as it is and with its blocks listed backwards; up to a time short of any amplification they must agree, event by event.
+/// Runs a scene as it is and with its blocks listed backwards; up to a time short of any amplification they must agree,
+/// event by event.
 void expectOrderDoesNotMatter(Scene scene, double seconds, double error)
 {
   World world(scene);

@@ -8,9 +8,10 @@ namespace
 {
 /// K1 (Galperin 2003): with masses 1 and 100^k the impacts number floor(pi 10^k).
 ///
-/// In the coordinates sqrt(m) x the two blocks are one point that flies straight through a wedge of the angle arctan 10^-k, unfolded. Each impact rounds the
-/// direction by 1e-16, n = pi 10^k of them add up to n 1e-16 at most, and the count is right while that is less than what the last impact misses the next
-/// one by: the fraction of pi 10^k (0.59, 0.65, 0.35 for k = 5, 6, 7) times 10^-k. So doubles end near 10^2k = 1e16 / 10: k = 7 may be right, k = 8 is luck.
+/// In the coordinates sqrt(m) x the two blocks are one point that flies straight through a wedge of the angle arctan
+/// 10^-k, unfolded. Each impact rounds the direction by 1e-16, n = pi 10^k of them add up to n 1e-16 at most, and the
+/// count is right while that is less than what the last impact misses the next one by: the fraction of pi 10^k (0.59,
+/// 0.65, 0.35 for k = 5, 6, 7) times 10^-k. So doubles end near 10^2k = 1e16 / 10: k = 7 may be right, k = 8 is luck.
 /// Positions do not matter: there is only one order in which the hits can follow each other.
 void expectDigitsOfPi(int k, std::int64_t impacts)
 {
@@ -19,8 +20,10 @@ void expectDigitsOfPi(int k, std::int64_t impacts)
   World world(scene);
   run(world, 1000.0);
   EXPECT_EQ(world.statistics().impacts, impacts) << k;
-  // An impact rounds the energies of its blocks by 2e-16; the same numbers again and again round the same way, so that these add up.
-  EXPECT_NEAR(world.energy().total / (0.5 * std::pow(100.0, k)), 1.0, rounding * std::max<std::int64_t>(10, 2 * impacts));
+  // An impact rounds the energies of its blocks by 2e-16; the same numbers again and again round the same way, so that
+  // these add up.
+  EXPECT_NEAR(world.energy().total / (0.5 * std::pow(100.0, k)), 1.0,
+              rounding * std::max<std::int64_t>(10, 2 * impacts));
   EXPECT_GT(world.state(0).velocity.x(), world.state(1).velocity.x());
   EXPECT_GE(world.state(1).velocity.x(), 0.0);
   expectExact(world, 1e-12 * 0.5 * std::pow(100.0, k));
@@ -42,8 +45,9 @@ TEST(ExactCounts, DISABLED_MoreDigitsOfPi)
   expectDigitsOfPi(6, 3141592);
 }
 
-// K2: a harmonic stack on a fixed block stands with a margin of 1e-6 and tips without it. The margin is a lever of 1e-6 m, far above the rounding of
-// coordinates and far below the size of any block, and must not be confused with the tolerance.
+// K2: a harmonic stack on a fixed block stands with a margin of 1e-6 and tips without it. The margin is a lever of 1e-6
+// m, far above the rounding of coordinates and far below the size of any block, and must not be confused with the
+// tolerance.
 TEST(ExactCounts, OverhangingStack)
 {
   for (int n = 2; n <= 8; ++n)
@@ -75,14 +79,16 @@ TEST(ExactCounts, OverhangingStack)
       }
       else
       {
-        // Tips over the edge of the fixed block with a moment of 1e-6 m times the weight: exp(t sqrt(g / l)) has grown by 1e6 long before 30 s.
+        // Tips over the edge of the fixed block with a moment of 1e-6 m times the weight: exp(t sqrt(g / l)) has grown
+        // by 1e6 long before 30 s.
         run(world, 30.0);
         EXPECT_LT(world.state(n - 1).position.y(), blocks.back().position.y() - 1.0);
       }
     }
 }
 
-// K3: masses that stop each block but the last, which leaves at n times the speed of the fall and rises to n^2 times the height: 3 and 1, for two.
+// K3: masses that stop each block but the last, which leaves at n times the speed of the fall and rises to n^2 times
+// the height: 3 and 1, for two.
 TEST(ExactCounts, StackedDrop)
 {
   for (int n = 2; n <= 5; ++n)
@@ -132,8 +138,8 @@ int expectClosedFormDrop(double e, double tolerance)
   run(world, drop.restTime() + 1.0);
   const double capture = captureSpeed(scene);
 
-  // A contact's height is rounded as numbers below 1 m are, by 1.1e-16 m at most: v^2 is off by 2 g times that, again at each landing, less e^2 each
-  // time, besides v's own roundings; each hop then lasts dv / g longer, twice.
+  // A contact's height is rounded as numbers below 1 m are, by 1.1e-16 m at most: v^2 is off by 2 g times that, again
+  // at each landing, less e^2 each time, besides v's own roundings; each hop then lasts dv / g longer, twice.
   const double square = 2.0 * 9.8 * 2.0 * rounding / (1.0 - e * e);
   double late = 4.0 * rounding, rest_begin = 0.0;
   int n = 0, bad = 0;
@@ -142,12 +148,14 @@ int expectClosedFormDrop(double e, double tolerance)
     if (contact.kind == ContactKind::RestBegin)
       rest_begin = contact.time.seconds();
     // Both corners land at once.
-    if (contact.kind != ContactKind::Impact || (n > 0 && contact.time.seconds() < landing(drop, n).time + 0.5 * drop.fallTime() * std::pow(e, n)))
+    if (contact.kind != ContactKind::Impact ||
+        (n > 0 && contact.time.seconds() < landing(drop, n).time + 0.5 * drop.fallTime() * std::pow(e, n)))
       continue;
     const Landing wanted = landing(drop, ++n);
     const double error = square / wanted.speed + 8.0 * n * rounding * wanted.speed;
     late += 2.0 * error / 9.8 + 2.0 * rounding;
-    bad += !(std::abs(contact.time.seconds() - wanted.time) <= late) || !(std::abs(-contact.normal_velocity - wanted.speed) <= error);
+    bad += !(std::abs(contact.time.seconds() - wanted.time) <= late) ||
+           !(std::abs(-contact.normal_velocity - wanted.speed) <= error);
     if (wanted.speed < capture / e)  // the last one may be caught as it leaves
       break;
   }
@@ -162,7 +170,8 @@ int expectClosedFormDrop(double e, double tolerance)
   return n;
 }
 
-// K4: a quarter of the tolerance is half the capture speed, and so adds ln 2 / ln(1/e) landings; one may fall on the limit.
+// K4: a quarter of the tolerance is half the capture speed, and so adds ln 2 / ln(1/e) landings; one may fall on the
+// limit.
 TEST(ExactCounts, LandingsOfADrop)
 {
   for (const double e : { 0.5, 0.9 })
@@ -186,8 +195,8 @@ TEST(ExactCounts, LandingsOfADrop)
   }
 }
 
-// K6: lively ones too, whose bounces an engine that gives back energy at the contact's shell would never end: sqrt(2 g delta / (1 - e^2)) lies above the
-// capture speed sqrt(8 g delta) for e > 0.866.
+// K6: lively ones too, whose bounces an engine that gives back energy at the contact's shell would never end: sqrt(2 g
+// delta / (1 - e^2)) lies above the capture speed sqrt(8 g delta) for e > 0.866.
 TEST(ExactCounts, LivelyBounces)
 {
   for (const double e : { 0.95, 0.99, 0.999 })
@@ -199,7 +208,8 @@ TEST(ExactCounts, LivelyBounces)
   }
 }
 
-/// Squares of 1 m in a ring, each tied to the next by an undamped spring that pulls them together, so that they keep colliding.
+/// Squares of 1 m in a ring, each tied to the next by an undamped spring that pulls them together, so that they keep
+/// colliding.
 Scene makeTied(int count, double gravity)
 {
   Random random(5);
@@ -209,8 +219,8 @@ Scene makeTied(int count, double gravity)
   {
     const double turn = 2.0 * pi * i / count;
     const Vector2d velocity = random.vector(0.5);
-    blocks.push_back(moving(makeBox("b" + std::to_string(i), { 1, 1 }, radius * Vector2d(std::cos(turn), std::sin(turn)),
-                                    random.in(0.0, pi)),
+    blocks.push_back(moving(makeBox("b" + std::to_string(i), { 1, 1 },
+                                    radius * Vector2d(std::cos(turn), std::sin(turn)), random.in(0.0, pi)),
                             velocity, random.in(-0.5, 0.5)));
   }
   Scene scene = makeScene(gravity, 1.0, blocks);
@@ -225,8 +235,8 @@ Scene makeTied(int count, double gravity)
   return scene;
 }
 
-// K5: nothing but the blocks themselves acts on them, so momentum, angular momentum and energy stay, to 1e-11 over many impacts; in a field of gravity
-// their centre follows the parabola.
+// K5: nothing but the blocks themselves acts on them, so momentum, angular momentum and energy stay, to 1e-11 over many
+// impacts; in a field of gravity their centre follows the parabola.
 void expectConserved(int count, double seconds, int least_impacts)
 {
   SCOPED_TRACE(count);
@@ -272,7 +282,8 @@ TEST(ExactCounts, CentreOfTiedBlocksFalls)
       for (int i = 0; i < count; ++i)
         centre += world.state(i).position / count;
       // Numbers of up to 80 m, rounded anew in each arc and impact.
-      EXPECT_NEAR((centre - start - t * velocity - Vector2d(0, -4.9 * t * t)).norm(), 0.0, 1e-12 * (1.0 + 4.9 * t * t)) << count;
+      EXPECT_NEAR((centre - start - t * velocity - Vector2d(0, -4.9 * t * t)).norm(), 0.0, 1e-12 * (1.0 + 4.9 * t * t))
+          << count;
     }
     EXPECT_GT(world.statistics().impacts, 10);
   }
