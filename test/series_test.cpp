@@ -228,6 +228,21 @@ TEST(FirstBelow, InfiniteHorizonIsTheParabola)
   EXPECT_EQ(firstBelow({ 1.0, 1.0 }, 1, never, 1.0), 0.0);
 }
 
+// A turn of 1e-22 rad/s makes a horizon of 1e22 s, with terms as large as the blocks; the zero is 1e-6 s away.
+TEST(FirstBelow, RootFarNearerThanTheHorizon)
+{
+  Series g{};
+  double term = 1.0;
+  for (int n = 1; n <= kOrder; ++n)
+  {
+    term *= 1e-22 / n;
+    g[n] = n % 4 < 2 ? term : -term;
+  }
+  g[0] = 2.5e-7;
+  g[1] -= 0.265;
+  EXPECT_NEAR(firstBelow(g, kOrder, 1e22, 0.0), 2.5e-7 / 0.265, 1e-20);
+}
+
 TEST(FirstBelow, RootsPlacedByConstruction)
 {
   Random random(4);

@@ -7,8 +7,8 @@ namespace block_world
 {
 namespace
 {
-/// s; instants differ by this at least (Time).
-constexpr double kInstant = 2.220446049250313e-16;
+/// Relative rounding of coordinates; in s, what instants differ by at least (Time).
+constexpr double kRounding = 2.220446049250313e-16;
 }  // namespace
 
 const Snapshot& World::Engine::snapshot(int body, const Time& time)
@@ -292,11 +292,14 @@ void World::Engine::resolve(const Time& time)
       break;
     }
     group_.prepare();
-    // Between the last instant before a contact and the next one, what is fast moves by more than coordinates resolve.
-    double fastest = 0.0;
+    // Between the last instant before a contact and the next one, what is fast moves by more than coordinates resolve; and these resolve less, the
+    // farther away from where the scene began.
+    double fastest = 0.0, farthest = 0.0;
     for (const Touch& touch : group_.touches)
       fastest = std::max(fastest, -touch.approach);
-    scales.closed = 2.0 * detector_.guard() + kInstant * fastest;
+    for (const Member& m : group_.members)
+      farthest = std::max(farthest, m.frame.position.lpNorm<Eigen::Infinity>());
+    scales.closed = 2.0 * detector_.guard() + kRounding * (fastest + 4.0 * farthest);
     impact_loss_ += group_.collide(scales);
     const bool again = velocity_decided_ && round < 8 && group_.struck();
     report(time, !again);

@@ -8,6 +8,9 @@ namespace block_world
 {
 namespace
 {
+/// As many halvings of the horizon as a double has digits, nearly.
+constexpr int kHalvings = 50;
+
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// binomial(i, j) / binomial(kOrder, j): Bernstein coefficient i of a power series on [0, 1] is the sum over j <= i of this times a_j.
@@ -141,7 +144,12 @@ double firstBelow(const Series& c, int degree, double horizon, double floor)
     for (int j = 0; j <= std::min(i, degree); ++j)
       bernstein[i] += table.weight[i][j] * scaled[j];
   }
-  return search(c, degree, floor, bernstein, 0.0, horizon, 50);
+  const double found = search(c, degree, floor, bernstein, 0.0, horizon, kHalvings);
+  if (found > 0.0 || c[0] <= floor)
+    return found;
+  // Undecided next to the start, where so long a horizon resolves nothing: look there again, with a horizon of that size.
+  const double near = std::ldexp(horizon, -kHalvings);
+  return std::min(firstBelow(c, degree, near, floor), near);
 }
 
 }  // namespace block_world

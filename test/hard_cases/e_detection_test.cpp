@@ -124,6 +124,27 @@ TEST(Detection, FasterThanInstantsResolve)
     }
 }
 
+// Far from where the scene began: one block creeps up on another while both go 10 km and more, where coordinates
+// resolve less than at the start.
+TEST(Detection, FarFromTheStart)
+{
+  for (const double time : { 1e3, 1e5 })
+    for (const double angle : { 0.0, 0.3 })
+    {
+      SCOPED_TRACE(time);
+      World world(makeScene(0.0, 1.0,
+                            { moving(makeBox("a", { 1, 1 }, { 0, 0 }, angle), { 10.0 + 1.0 / time, 0 }),
+                              moving(makeBox("b", { 1, 1 }, { 2.2, 0.1 }), { 10, 0 }) }));
+      const double energy = world.energy().total;
+      world.advance(Time::fromSeconds(3.0 * time), 10000);
+      EXPECT_EQ(world.now(), Time::fromSeconds(3.0 * time));
+      EXPECT_GE(world.statistics().impacts, 1);
+      EXPECT_GT(world.state(1).velocity.x(), world.state(0).velocity.x());
+      EXPECT_NEAR(world.energy().total / energy, 1.0, 1e-14);
+      EXPECT_EQ(world.statistics().mode, "exact");
+    }
+}
+
 // E4: 1 mm in a room of 1 km. A tolerance below what the coordinates can resolve is raised, and the notes say so.
 TEST(Detection, HugeSizeRatio)
 {
