@@ -228,18 +228,18 @@ TEST(FirstBelow, InfiniteHorizonIsTheParabola)
   EXPECT_EQ(firstBelow({ 1.0, 1.0 }, 1, never, 1.0), 0.0);
 }
 
-// A turn of 1e-22 rad/s makes a horizon of 1e22 s, with terms as large as the blocks; the zero is 1e-6 s away.
+// A turn of 1e-22 rad/s makes a horizon of 1e22 s, over which a speed of 1 m/s turns into all directions; the zero is 1e-6 s away.
 TEST(FirstBelow, RootFarNearerThanTheHorizon)
 {
   Series g{};
   double term = 1.0;
-  for (int n = 1; n <= kOrder; ++n)
+  for (int n = 2; n <= kOrder; ++n)
   {
-    term *= 1e-22 / n;
-    g[n] = n % 4 < 2 ? term : -term;
+    term *= 1e-22 / (n - 1);
+    g[n] = n % 4 < 2 ? -term : term;
   }
   g[0] = 2.5e-7;
-  g[1] -= 0.265;
+  g[1] = -0.265;
   EXPECT_NEAR(firstBelow(g, kOrder, 1e22, 0.0), 2.5e-7 / 0.265, 1e-20);
 }
 
