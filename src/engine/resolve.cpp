@@ -292,8 +292,8 @@ void World::Engine::resolve(const Time& time)
       break;
     }
     group_.prepare();
-    // Between the last instant before a contact and the next one, what is fast moves by more than coordinates resolve; and these resolve less, the
-    // farther away from where the scene began.
+    // Between the last instant before a contact and the next one, what is fast moves by more than coordinates resolve;
+    // and these resolve less, the farther away from where the scene began.
     double fastest = 0.0, farthest = 0.0;
     for (const Touch& touch : group_.touches)
       fastest = std::max(fastest, -touch.approach);
