@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Judged, testing::ValuesIn(cases), nameOf);
 
 TEST(Campaign, OneStartOfEachKind)
 {
-  const std::string command = std::string("/usr/bin/python3 '") + BLOCK_WORLD_DIR + "/test/campaign/campaign.py' --simulate '" +
+  const std::string command = std::string("/usr/bin/python3 '") + BLOCK_WORLD_DIR + "/test/campaign/six_blocks_campaign.py' --simulate '" +
                               BLOCK_WORLD_SIMULATE + "' --checker '" + BLOCK_WORLD_CHECKER + "' --starts 1 --jobs 2";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }

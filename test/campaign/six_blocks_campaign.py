@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Random starts of the six-block scene, simulated and judged by the checker.
 
-    campaign.py --simulate build/simulate --checker build/checker [--starts 20] [--jobs 2] [--gravity 3]
+    six_blocks_campaign.py --simulate build/simulate --checker build/checker [--starts 20] [--jobs 2] [--gravity 3]
 
 Six blocks of 1 x 3 m and 1 kg in a box of 12 x 12 m, at random places that do not overlap, with random
 velocities: for every gravity and elasticity, 20 s each. A run is stuck when it has not reached its end within
@@ -184,7 +184,7 @@ def main():
     options = parse_options()
     for program in (options.simulate, options.checker):
         if not os.access(program, os.X_OK):
-            print(f"campaign: {program} is no program", file=sys.stderr)
+            print(f"six_blocks_campaign: {program} is no program", file=sys.stderr)
             return 2
     options.work = os.path.abspath(options.work)
     options.simulate, options.checker = os.path.abspath(options.simulate), os.path.abspath(options.checker)

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "case.h"
+#include "result.h"
+
+namespace campaign
+{
+/// What judging needs beside the case.
+struct Tools
+{
+  std::string simulate, checker;  ///< programs; without them nothing is judged through files
+  std::string folder;             ///< for files that come and go
+  double cpu = 10.0;              ///< s that a run may take
+};
+
+/// Runs a case in all ways and judges it.
+Result judge(const Case& item, const Tools& tools);
+
+/// The command lines that repeat what the checker judged.
+std::string simulateCommand(const Tools& tools, const std::string& scene, const std::string& folder, double duration);
+std::string checkerCommand(const Tools& tools, const std::string& scene, const std::string& folder);
+
+}  // namespace campaign
