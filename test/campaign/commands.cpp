@@ -23,7 +23,8 @@ void CommandMaker::make()
     for (int count = dice_.from(1, 8); count > 0; --count)
     {
       const Block& block = movable_[dice_.below(static_cast<int>(movable_.size()))];
-      const double time = dice_.round(0.0, case_.duration);
+      // Between the milliseconds at which runs are sampled: before or after a command would be a matter of taste.
+      const double time = dice_.round(0.0, case_.duration) + 0.0005;
       const Command command = inputFor(block);
       case_.scene.inputs.push_back({ Time::fromSeconds(time), command });
       if (std::holds_alternative<SpringCommand>(command) && dice_.chance(0.6))
@@ -122,14 +123,14 @@ void CommandMaker::moveMouse(const Block& block, double time)
   {
     time += 0.017;
     spring.anchor += step;
-    case_.scene.inputs.push_back({ Time::fromSeconds(Dice::few(time)), spring });
+    case_.scene.inputs.push_back({ Time::fromSeconds(time), spring });
   }
   if (!dice_.chance(0.5))
     return;
   SpringCommand release;
   release.active = false;
   release.body = block.name;
-  case_.scene.inputs.push_back({ Time::fromSeconds(Dice::few(time + dice_.in(0.0, 2.0))), release });
+  case_.scene.inputs.push_back({ Time::fromSeconds(time + dice_.round(0.0, 2.0)), release });
 }
 
 Command CommandMaker::scripted(int number)

@@ -93,7 +93,7 @@ private:
     {
       blocks.push_back(makeShape(dice_));
       makeMatter(blocks.back());
-      blocks.back().fixed = has_fixed && dice_.chance(0.2);
+      blocks.back().fixed = has_fixed && i > 0 && dice_.chance(0.2);
       area += areaOf(blocks.back());
     }
     // The largest first: the small ones find room between them.

@@ -10,9 +10,17 @@ namespace campaign
 /// What judging needs beside the case.
 struct Tools
 {
-  std::string simulate, checker;  ///< programs; without them nothing is judged through files
-  std::string folder;             ///< for files that come and go
-  double cpu = 10.0;              ///< s that a run may take
+  std::string simulate, checker;         ///< programs; without them nothing is judged through files
+  std::string folder;                    ///< for files that come and go
+  double cpu = 10.0;                     ///< s that a run may take
+  bool watches = true, compares = true;  ///< ways of judging: at every promise; readings at other times and copies
+
+  bool judgesFiles() const
+  {
+    return !simulate.empty();
+  }
+  /// No more than what can find a failure of this name again.
+  Tools forCheck(const std::string& name) const;
 };
 
 /// Runs a case in all ways and judges it.

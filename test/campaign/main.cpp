@@ -98,11 +98,9 @@ Result judgeApart(const Case& item, const Tools& tools)
 
 Case shrunk(const Case& item, const Result& result, const Options& options, const std::string& folder, Failure& left)
 {
-  Tools tools = options.tools;
-  tools.folder = folder;
   const Failure& failure = result.failures.front();
-  if (failure.check.rfind("checker", 0) != 0 && failure.check != "simulate")
-    tools.simulate.clear();
+  Tools tools = options.tools.forCheck(failure.check);
+  tools.folder = folder;
   Shrinker shrinker(item, failure, [&](const Case& candidate) { return judgeApart(candidate, tools); }, options.shrink_seconds);
   const Case small = shrinker.shrink();
   left = shrinker.failure();

@@ -79,6 +79,8 @@ Watch::Watch(const Case& item, const World& world, Result& result) : result_(res
 {
   result_.keeps_energy = keepsEnergy(item);
   result_.keeps_momentum = keepsMomentum(item);
+  is_turned_ = std::any_of(item.scene.springs.begin(), item.scene.springs.end(),
+                           [](const Spring& s) { return s.rest_length == 0.0 && s.damping != 0.0; });
   start_energy_ = world.energy().total;
   start_momentum_ = momentumOf(world);
 }
@@ -186,7 +188,8 @@ void Watch::checkMomentum(const World& world)
   start_momentum_.linear_scale = std::max(start_momentum_.linear_scale, now.linear_scale);
   start_momentum_.angular_scale = std::max(start_momentum_.angular_scale, now.angular_scale);
   const double linear = (now.linear - start_momentum_.linear).norm() / std::max(1e-300, start_momentum_.linear_scale);
-  const double angular = std::abs(now.angular - start_momentum_.angular) / std::max(1e-300, start_momentum_.angular_scale);
+  const double angular =
+      is_turned_ ? 0.0 : std::abs(now.angular - start_momentum_.angular) / std::max(1e-300, start_momentum_.angular_scale);
   result_.momentum = std::max({ result_.momentum, linear, angular });
   if (!(std::max(linear, angular) <= rounding(world)))
     result_.fail("momentum", world.now().seconds(), "changed by " + shown(linear) + " (linear), " + shown(angular) + " (angular) of the scale");

@@ -40,6 +40,7 @@ private:
   std::vector<block_world::ContactEvent> contacts_;
   double start_energy_ = 0.0, lowest_ = 0.0, scale_ = 0.0;
   Momentum start_momentum_;
+  bool is_turned_ = false;  ///< by dampers of springs without length, which act beside the line of their ends
 };
 
 /// Lengths in m: the largest coordinate that a block or wall of the case has at the start.

@@ -312,9 +312,11 @@ void Replay::land(size_t sample)
     account(changes[next]);
 }
 
-// Force that keeps what turns in the body's island on its circles: it may be all that presses a contact.
-double Replay::centripetalForce(int body, size_t sample)
+// All that may press somewhere in a body's island: what is applied to its bodies, and the force that keeps what turns on
+// its circles.
+double Replay::islandForce(int body, size_t sample)
 {
+  std::vector<Load> applied(run_.bodies);
   double force = 0.0;
   for (size_t i = 0; i < run_.bodies; ++i)
   {
@@ -322,7 +324,9 @@ double Replay::centripetalForce(int body, size_t sample)
     if (!scene_.movable(other) || islandOf(motion_.clusterOf(other)) != islandOf(motion_.clusterOf(body)))
       continue;
     const double omega = std::max(std::abs(run_.state(sample - 1, other).omega), std::abs(run_.state(sample, other).omega));
-    force += drive_->bodies[i].mass * omega * omega * scene_.blocks[i].shape.radius;
+    const double radius = scene_.blocks[i].shape.radius;
+    motion_.loads(motion_.clusterOf(other), *drive_, states_, applied);
+    force += applied[i].force.norm() + std::abs(applied[i].torque) / radius + drive_->bodies[i].mass * omega * omega * radius;
   }
   return force;
 }
@@ -334,10 +338,7 @@ void Replay::bound(int body, size_t sample)
   const State &from = run_.state(sample - 1, body), &to = run_.state(sample, body);
   const double h = end_ - begin_, radius = scene_.blocks[body].shape.radius;
   const double mass = drive_->bodies[body].mass, inertia = motion_.inertia(*drive_, body);
-  std::vector<Load> applied(run_.bodies);
-  motion_.loads(motion_.clusterOf(body), *drive_, states_, applied);
-  const double force = 10.0 * (leaning_[body] + applied[body].force.norm() + std::abs(applied[body].torque) / radius +
-                               centripetalForce(body, sample));
+  const double force = 10.0 * (leaning_[body] + islandForce(body, sample));
   const double speed = from.velocity.norm() + to.velocity.norm() + radius * (std::abs(from.omega) + std::abs(to.omega));
   const double gain = h * force / mass, turn = h * (force * radius + 2.0 * pushed_[body].x() * speed) / inertia;
   const double move = h * (gain + pushed_[body].x() / mass) + scene_.tolerance;

@@ -72,7 +72,7 @@ private:
   void account(const Change& change);
   void land(size_t sample);
   void compare(int body, const State& wanted, const State& found);
-  double centripetalForce(int body, size_t sample);
+  double islandForce(int body, size_t sample);
   void bound(int body, size_t sample);
   void bring(int cluster, double time);
   int islandOf(int cluster);
@@ -94,6 +94,8 @@ private:
   double captureImpulse() const;
   double appliedAcceleration(int body, const std::vector<State>& states) const;
   double slack(const ContactRow& row, double since);
+  double fastestTurn(int island);
+  double speedOf(int body) const;
 
   const Scene& scene_;
   const Run& run_;

@@ -48,6 +48,12 @@ bool closed(const Scene& scene, const Drive& drive)
   return std::none_of(drive.bodies.begin(), drive.bodies.end(), driven) &&
          std::none_of(scene.springs.begin(), scene.springs.end(), anchored);
 }
+/// The damper of a spring without length acts along the velocity, beside the line of its ends: it turns them.
+bool dampersTurn(const Scene& scene)
+{
+  return std::any_of(scene.springs.begin(), scene.springs.end(),
+                     [](const Spring& spring) { return spring.rest_length == 0.0 && spring.damping != 0.0; });
+}
 }  // namespace
 
 void checkMomentum(const Scene& scene, const Run& run, const Timeline& timeline, Replay& replay, Report& report)
@@ -74,7 +80,7 @@ void checkMomentum(const Scene& scene, const Run& run, const Timeline& timeline,
     const Vec2 weight(0.0, -drive.gravity * from.mass);
     const Vec2 change = to.momentum - from.momentum - h * weight + drive.damping * (to.damped - from.damped);
     linear.add(change.norm(), 10.0 * relative_error * std::max(1.0, from.size + to.size), run.times[k]);
-    if (drive.damping != 0.0 || shifted)
+    if (drive.damping != 0.0 || shifted || dampersTurn(scene))
       continue;
     // The common centre of mass is on a parabola, whose integral Hermite's rule gives exactly.
     const Vec2 moment = 0.5 * h * (from.moment + to.moment) + h * h / 12.0 * (from.momentum - to.momentum);
