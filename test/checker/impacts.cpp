@@ -90,29 +90,48 @@ double Replay::normalVelocity(const ContactRow& row, const std::vector<State>& s
   return row.normal.dot(at(row.a) - at(row.b));
 }
 
-// A resting body is moved under the contact forces of the last sample; these turn and grow with all that leans on it,
-// which the interval's cube bounds.
+// A resting body is moved under the contact forces of the last sample; these turn and grow with all that leans on it, and
+// with the place of the contact, which the interval's cube bounds.
 double Replay::slack(const ContactRow& row, double since)
 {
+  const auto velocity = [&](int body) { return scene_.movable(body) ? states_[body].velocity : Vec2(Vec2::Zero()); };
+  const double sliding = (velocity(row.a) - velocity(row.b)).norm();
   double value = 0.0;
   for (const int body : { row.a, row.b })
   {
     if (!scene_.movable(body) || !resting_[motion_.clusterOf(body)])
       continue;
-    const double rate = 1.0 + fastestTurn(islandOf(motion_.clusterOf(body)));
+    const double rate =
+        1.0 + fastestRate(islandOf(motion_.clusterOf(body))) + sliding / scene_.blocks[body].shape.radius;
     value += since * since * since * rate * (rate * rate + 10.0 * leaning_[body] / drive_->bodies[body].mass);
   }
   return value;
 }
 
-double Replay::fastestTurn(int island)
+/// How fast forces change in an island, 1/s: as bodies turn, as damping brakes them, as springs swing.
+double Replay::fastestRate(int island)
 {
   double fastest = 0.0;
   for (size_t i = 0; i < run_.bodies; ++i)
   {
     const int body = static_cast<int>(i);
-    if (scene_.movable(body) && islandOf(motion_.clusterOf(body)) == island)
-      fastest = std::max(fastest, std::abs(states_[i].omega));
+    if (!scene_.movable(body) || islandOf(motion_.clusterOf(body)) != island)
+      continue;
+    const double radius = scene_.blocks[i].shape.radius, inertia = motion_.inertia(*drive_, body);
+    const double yielding = 1.0 / drive_->bodies[i].mass + radius * radius / inertia;
+    double stiffness = 0.0, damping = 0.0;
+    const auto add = [&](const auto& spring) {
+      stiffness += spring.stiffness;
+      damping += spring.damping;
+    };
+    for (const Spring& spring : scene_.springs)
+      if (spring.from == body || spring.to == body)
+        add(spring);
+    if (drive_->bodies[i].spring)
+      add(*drive_->bodies[i].spring);
+    const double braking = drive_->damping / drive_->bodies[i].mass +
+                           drive_->damping * scene_.rotational_ratio / inertia;
+    fastest = std::max(fastest, std::abs(states_[i].omega) + braking + damping * yielding + std::sqrt(stiffness * yielding));
   }
   return fastest;
 }

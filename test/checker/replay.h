@@ -94,7 +94,7 @@ private:
   double captureImpulse() const;
   double appliedAcceleration(int body, const std::vector<State>& states) const;
   double slack(const ContactRow& row, double since);
-  double fastestTurn(int island);
+  double fastestRate(int island);
   double speedOf(int body) const;
 
   const Scene& scene_;

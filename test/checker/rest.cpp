@@ -170,6 +170,11 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
     const double guess = 10.0 * (gain - h * coarse.once(a)).norm();
     const double turn_guess = 10.0 * std::abs(turn - h * coarse.once(alpha));
     sure = sure && guess < largest_guess && turn_guess < largest_guess;
+    // Where a finer order is hardly finer, forces change too fast for the samples, and the difference says nothing.
+    const Window coarsest(2, sample - 1 - first, instants.size());
+    if (n == 6)
+      sure = sure && (guess < limits.velocity || guess < (gain - h * coarsest.once(a)).norm()) &&
+             (turn_guess < limits.omega || turn_guess < std::abs(turn - h * coarsest.once(alpha)));
     if (!sure)
       break;
     const double weight = timeline_.at(run_.times[sample]).gravity + a(sample - first).norm();

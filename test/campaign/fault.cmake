@@ -1,0 +1,12 @@
+# Copies SOURCE to RESULT with the one occurrence of FROM replaced by TO.
+file(READ "${SOURCE}" text)
+string(REPLACE "${FROM}" "" rest "${text}")
+string(LENGTH "${text}" length)
+string(LENGTH "${rest}" rest_length)
+string(LENGTH "${FROM}" from_length)
+math(EXPR left "${length} - ${rest_length} - ${from_length}")
+if(NOT left EQUAL 0)
+  message(FATAL_ERROR "${SOURCE} does not hold exactly one \"${FROM}\": put the fault for the campaign's test elsewhere")
+endif()
+string(REPLACE "${FROM}" "${TO}" text "${text}")
+file(WRITE "${RESULT}" "${text}")
