@@ -39,12 +39,12 @@ Weights weightsOf(size_t n, size_t start)
   return weights;
 }
 
-/// A window of n of the values first ... last that lies around [interval, interval + 1].
+/// A window of n of `count` values that lies around [interval, interval + 1], or beside it by one where there are values.
 struct Window
 {
-  Window(size_t n, size_t interval, size_t count) : n(n)
+  Window(size_t n, size_t interval, size_t count, int aside = 0) : n(n)
   {
-    const size_t before = n / 2 - 1;
+    const size_t before = n / 2 - 1 - aside;
     start = interval < before ? 0 : std::min(interval - before, count - n);
     static const std::array<std::array<Weights, 5>, 7> table = [] {
       std::array<std::array<Weights, 5>, 7> all;
@@ -153,7 +153,7 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
 {
   const double h = run_.times[sample] - run_.times[sample - 1];
   const size_t n = instants.size() < 6 ? 4 : 6;
-  const Window fine(n, sample - 1 - first, instants.size()), coarse(n - 2, sample - 1 - first, instants.size());
+  const Window fine(n, sample - 1 - first, instants.size());
   Account& account = replay_.account(sample);
   bool sure = true;
   for (size_t i = 0; i < motion_.clusters()[cluster].size(); ++i)
@@ -166,15 +166,17 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
     const Vec2 gain = h * fine.once(a);
     const double turn = h * fine.once(alpha);
     // The difference of two orders is an estimate of the finer one's error, not a bound: forces that grow by a fifth from sample to sample
-    // exceed it a few times over.
-    const double guess = 10.0 * (gain - h * coarse.once(a)).norm();
-    const double turn_guess = 10.0 * std::abs(turn - h * coarse.once(alpha));
+    // exceed it a few times over. It may vanish by chance, but not for three windows.
+    double guess = 0.0, turn_guess = 0.0;
+    for (const int aside : { -1, 0, 1 })
+    {
+      if (n < 6 && aside != 0)
+        continue;
+      const Window coarse(n - 2, sample - 1 - first, instants.size(), aside);
+      guess = std::max(guess, 10.0 * (gain - h * coarse.once(a)).norm());
+      turn_guess = std::max(turn_guess, 10.0 * std::abs(turn - h * coarse.once(alpha)));
+    }
     sure = sure && guess < largest_guess && turn_guess < largest_guess;
-    // Where a finer order is hardly finer, forces change too fast for the samples, and the difference says nothing.
-    const Window coarsest(2, sample - 1 - first, instants.size());
-    if (n == 6)
-      sure = sure && (guess < limits.velocity || guess < (gain - h * coarsest.once(a)).norm()) &&
-             (turn_guess < limits.omega || turn_guess < std::abs(turn - h * coarsest.once(alpha)));
     if (!sure)
       break;
     const double weight = timeline_.at(run_.times[sample]).gravity + a(sample - first).norm();
