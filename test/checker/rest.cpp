@@ -48,7 +48,7 @@ struct Window
     start = interval < before ? 0 : std::min(interval - before, count - n);
     static const std::array<std::array<Weights, 5>, 7> table = [] {
       std::array<std::array<Weights, 5>, 7> all;
-      for (const size_t size : { 2, 4, 6 })
+      for (const size_t size : { 4, 6 })
       {
         for (size_t at = 0; at + 1 < size; ++at)
           all[size][at] = weightsOf(size, at);
@@ -133,7 +133,8 @@ void RestMotion::checkCluster(int cluster)
 
 void RestMotion::checkStretch(int cluster, size_t first, size_t last)
 {
-  if (last - first < 3)
+  // Six samples make two orders that can be compared.
+  if (last - first < 5)
   {
     for (size_t sample = first + 1; sample <= last; ++sample)
     {
@@ -152,8 +153,7 @@ void RestMotion::checkStretch(int cluster, size_t first, size_t last)
 void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Instant>& instants, size_t first)
 {
   const double h = run_.times[sample] - run_.times[sample - 1];
-  const size_t n = instants.size() < 6 ? 4 : 6;
-  const Window fine(n, sample - 1 - first, instants.size());
+  const Window fine(6, sample - 1 - first, instants.size());
   Account& account = replay_.account(sample);
   bool sure = true;
   for (size_t i = 0; i < motion_.clusters()[cluster].size(); ++i)
@@ -170,11 +170,9 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
     double guess = 0.0, turn_guess = 0.0;
     for (const int aside : { -1, 0, 1 })
     {
-      if (n < 6 && aside != 0)
-        continue;
-      const Window coarse(n - 2, sample - 1 - first, instants.size(), aside);
-      guess = std::max(guess, 10.0 * (gain - h * coarse.once(a)).norm());
-      turn_guess = std::max(turn_guess, 10.0 * std::abs(turn - h * coarse.once(alpha)));
+      const Window coarse(4, sample - 1 - first, instants.size(), aside);
+      guess = std::max(guess, 30.0 * (gain - h * coarse.once(a)).norm());
+      turn_guess = std::max(turn_guess, 30.0 * std::abs(turn - h * coarse.once(alpha)));
     }
     sure = sure && guess < largest_guess && turn_guess < largest_guess;
     if (!sure)
