@@ -18,11 +18,11 @@ constexpr int instants = 64;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
 // A disturbed copy differs by one rounding of every coordinate, a mirrored one by the roundings of every operation on the
-// way. An event is some hundred operations, and there are up to some thousand on the way to where comparing ends; growth is
+// way. An event is some hundred operations, of which there are up to a hundred on the way to where comparing ends; growth is
 // about the same for all of them, be they early or late.
-constexpr double roundings = 1e5;
+constexpr double roundings = 1e4;
 // Comparing ends where the disturbed copies have gone this far from the run (of the length of the scene): the limit for
-// the others is then 1e-7 of it, far below anything that a wrong impulse or a wrong order does.
+// the others is then 1e-8 of it, far below anything that a wrong impulse or a wrong order does.
 constexpr double amplified = 1e-12;
 
 Time instant(const Case& item, int k)
@@ -79,6 +79,20 @@ struct Copy
     : name(name), item(item), sign(sign), player(this->item, cpu)
   {
   }
+  /// Goes on to a time of comparison; how far it is then from where the run was.
+  double advance(const Case& original, const Track& track, int k)
+  {
+    try
+    {
+      player.advance(instant(original, k));
+    }
+    catch (const Stuck& stuck)
+    {
+      throw Stuck(std::string(name) + " copy: " + stuck.what(), stuck.time());
+    }
+    return departure(track.places[k], player.world(), sign);
+  }
+
   const char* name;
   Case item;
   double sign;
@@ -122,17 +136,13 @@ void compareCopies(const Case& item, const Track& track, double cpu, Result& res
   for (int k = 0; k < instants; ++k)
   {
     for (const auto& twin : twins)
-    {
-      twin->player.advance(instant(item, k));
-      grown = std::max(grown, departure(track.places[k], twin->player.world(), 1.0));
-    }
+      grown = std::max(grown, twin->advance(item, track, k));
     if (grown > amplified * length)
       return;
     result.compared = static_cast<double>(k + 1) / instants;
     for (const auto& copy : copies)
     {
-      copy->player.advance(instant(item, k));
-      const double way = departure(track.places[k], copy->player.world(), copy->sign);
+      const double way = copy->advance(item, track, k);
       result.departure = std::max(result.departure, way / grown);
       if (way > roundings * grown)
         return result.fail(copy->name, instant(item, k).seconds(), "off by " + shown(way) + " m, the disturbed copies by " + shown(grown));

@@ -29,8 +29,6 @@ void mirror(Block& block)
   // Counter-clockwise again, the first vertex first.
   if (!block.vertices.empty())
     std::reverse(block.vertices.begin() + 1, block.vertices.end());
-  if (block.size)
-    block.vertices.clear();
 }
 
 /// The mirror image of each default thruster, from the table of their places.
