@@ -1,12 +1,22 @@
 #include "commands.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "shapes.h"
 
 namespace campaign
 {
 using namespace block_world;
+
+namespace
+{
+/// The instants at which runs are sampled, too: a double of seconds would lie beside most of them.
+Time milliseconds(double seconds)
+{
+  return Time::fromNanoseconds(std::llround(1000.0 * seconds) * 1000000);
+}
+}  // namespace
 
 CommandMaker::CommandMaker(Dice& dice, Case& item, const Vector2d& size) : dice_(dice), case_(item), size_(size)
 {
@@ -23,16 +33,15 @@ void CommandMaker::make()
     for (int count = dice_.from(1, 8); count > 0; --count)
     {
       const Block& block = movable_[dice_.below(static_cast<int>(movable_.size()))];
-      // Between the milliseconds at which runs are sampled: before or after a command would be a matter of taste.
-      const double time = dice_.round(0.0, case_.duration) + 0.0005;
+      const double time = dice_.round(0.0, case_.duration);
       const Command command = inputFor(block);
-      case_.scene.inputs.push_back({ Time::fromSeconds(time), command });
+      case_.scene.inputs.push_back({ milliseconds(time), command });
       if (std::holds_alternative<SpringCommand>(command) && dice_.chance(0.6))
         moveMouse(block, time);
     }
   if (dice_.chance(0.2))
     for (int number = 0, count = dice_.from(1, 5); number < count; ++number)
-      case_.script.push_back({ Time::fromSeconds(dice_.round(0.0, case_.duration)), scripted(number) });
+      case_.script.push_back({ milliseconds(dice_.round(0.0, case_.duration)), scripted(number) });
   sort();
 }
 
@@ -123,14 +132,14 @@ void CommandMaker::moveMouse(const Block& block, double time)
   {
     time += 0.017;
     spring.anchor += step;
-    case_.scene.inputs.push_back({ Time::fromSeconds(time), spring });
+    case_.scene.inputs.push_back({ milliseconds(Dice::few(time)), spring });
   }
   if (!dice_.chance(0.5))
     return;
   SpringCommand release;
   release.active = false;
   release.body = block.name;
-  case_.scene.inputs.push_back({ Time::fromSeconds(time + dice_.round(0.0, 2.0)), release });
+  case_.scene.inputs.push_back({ milliseconds(Dice::few(time + dice_.in(0.0, 2.0))), release });
 }
 
 Command CommandMaker::scripted(int number)

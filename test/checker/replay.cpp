@@ -316,7 +316,6 @@ void Replay::land(size_t sample)
 // its circles.
 double Replay::islandForce(int body, size_t sample)
 {
-  std::vector<Load> applied(run_.bodies);
   double force = 0.0;
   for (size_t i = 0; i < run_.bodies; ++i)
   {
@@ -325,6 +324,7 @@ double Replay::islandForce(int body, size_t sample)
       continue;
     const double omega = std::max(std::abs(run_.state(sample - 1, other).omega), std::abs(run_.state(sample, other).omega));
     const double radius = scene_.blocks[i].shape.radius;
+    std::vector<Load> applied(run_.bodies);
     motion_.loads(motion_.clusterOf(other), *drive_, states_, applied);
     force += applied[i].force.norm() + std::abs(applied[i].torque) / radius + drive_->bodies[i].mass * omega * omega * radius;
   }
