@@ -72,7 +72,7 @@ const Fault faults[] = {
   { "pair_skipped", "overlap", 9, 4 },
   { "impulse_wrong", "checker.impact.restitution", 8, 3 },
   { "island_frozen", "energy.balance", 3, 1 },
-  { "capture_lossy", "checker.impact.restitution", 10, 1 },
+  { "capture_greedy", "checker.contact.sign", 12, 5 },
 };
 
 std::string nameOf(const testing::TestParamInfo<Fault>& info)

@@ -62,6 +62,12 @@ Vector2d CommandMaker::pointIn(const Block& block)
   return dice_.vector(0.3 * widthOf(block));
 }
 
+/// Ends between two samples: before or after one would be a matter of how the sum is rounded.
+double CommandMaker::duration()
+{
+  return dice_.round(0.0, 3.0) + 0.0005;
+}
+
 /// Forces are measured by the block's mass, so that light ones do not leave for the stars.
 Command CommandMaker::inputFor(const Block& block)
 {
@@ -70,7 +76,7 @@ Command CommandMaker::inputFor(const Block& block)
   {
     case 0:
     {
-      ThrustCommand thrust{ block.name, std::vector<double>(6, 0.0), dice_.round(0.0, 3.0) };
+      ThrustCommand thrust{ block.name, std::vector<double>(6, 0.0), duration() };
       for (double& level : thrust.levels)
         level = dice_.chance(0.5) ? 0.0 : dice_.round(0.0, 1.0);
       return thrust;
@@ -83,7 +89,7 @@ Command CommandMaker::inputFor(const Block& block)
       spring.anchor = place();
       spring.stiffness = Dice::few(mass * dice_.in(0.0, 30.0));
       spring.damping = dice_.chance(0.5) ? 0.0 : Dice::few(mass * dice_.in(0.0, 3.0));
-      spring.duration = dice_.chance(0.5) ? 0.0 : dice_.round(0.0, 3.0);
+      spring.duration = dice_.chance(0.5) ? 0.0 : duration();
       return spring;
     }
     case 2:

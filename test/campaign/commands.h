@@ -19,6 +19,7 @@ private:
   void moveMouse(const block_world::Block& block, double time);
   block_world::Command scripted(int number);
   block_world::SetCommand set();
+  double duration();
   Eigen::Vector2d place();
   Eigen::Vector2d pointIn(const block_world::Block& block);
   void sort();

@@ -8,6 +8,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "limits.h"
+
 // Reads what it needs and trusts that the simulation has refused what is wrong: the checker judges runs, not scenes.
 
 namespace checker
@@ -164,10 +166,17 @@ void readMouseSpring(const YAML::Node& node, Input& input)
   read(node, "duration", input.duration);
 }
 
+/// The number by which the files of a run name the same nanosecond: the sum of its whole seconds and its fraction.
+double instantOf(double time)
+{
+  const double whole = std::floor(time), sum = whole + std::round((time - whole) * 1e9) / 1e9;
+  return std::abs(sum - time) <= timeResolution(time) ? sum : time;
+}
+
 Input readInput(const YAML::Node& node, const Scene& scene)
 {
   Input input;
-  input.time = node["time"].as<double>();
+  input.time = instantOf(node["time"].as<double>());
   for (const char* kind : { "thrust", "spring", "release", "wrench" })
   {
     if (node[kind] && node[kind]["block"])
