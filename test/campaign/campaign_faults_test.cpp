@@ -1,5 +1,5 @@
-// That the campaign can fail: engines with one deliberate fault each (CMakeLists.txt), which a few of its seeds must find. The
-// same seeds pass with the engine as it is.
+// That the campaign can fail: engines with one deliberate fault each (CMakeLists.txt), which a few of its seeds must
+// find. The same seeds pass with the engine as it is.
 
 #include <gtest/gtest.h>
 
@@ -42,10 +42,10 @@ Outcome runCampaign(const std::string& fault, int first, int count)
   // The faulty programs lie beside the campaign.
   const fs::path built = fs::path(BLOCK_WORLD_CAMPAIGN).parent_path();
   const fs::path simulate = fault.empty() ? fs::path(BLOCK_WORLD_SIMULATE) : built / ("simulate" + suffix);
-  const std::string command =
-      shell(built / ("campaign" + suffix)) + " --first " + std::to_string(first) + " --count " + std::to_string(count) +
-      " --jobs 2 --longest 2 --cpu 5 --save " + shell(folder / "failing") + " --simulate " + shell(simulate) +
-      " --checker " + shell(BLOCK_WORLD_CHECKER) + " > " + shell(folder / "report");
+  const std::string command = shell(built / ("campaign" + suffix)) + " --first " + std::to_string(first) + " --count " +
+                              std::to_string(count) + " --jobs 2 --longest 2 --cpu 5 --save " +
+                              shell(folder / "failing") + " --simulate " + shell(simulate) + " --checker " +
+                              shell(BLOCK_WORLD_CHECKER) + " > " + shell(folder / "report");
   const int status = std::system(command.c_str());
   std::ifstream file(folder / "report");
   std::ostringstream text;

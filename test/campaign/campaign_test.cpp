@@ -25,8 +25,8 @@ using namespace block_world;
 TEST(Campaign, ManySeeds)
 {
   const std::string folder = (std::filesystem::temp_directory_path() / "campaign_failures").string();
-  const std::string command = "'" BLOCK_WORLD_CAMPAIGN "' --first 89 --count 60 --longest 2 --cpu 5 --jobs 2 --save '" + folder +
-                              "' --simulate '" BLOCK_WORLD_SIMULATE "' --checker '" BLOCK_WORLD_CHECKER "'";
+  const std::string command = "'" BLOCK_WORLD_CAMPAIGN "' --first 89 --count 60 --longest 2 --cpu 5 --jobs 2 --save '" +
+                              folder + "' --simulate '" BLOCK_WORLD_SIMULATE "' --checker '" BLOCK_WORLD_CHECKER "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 

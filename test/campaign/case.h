@@ -7,8 +7,8 @@
 
 namespace campaign
 {
-/// What is simulated and judged: a scene, and commands that a scene file cannot hold (set_state, spawn, delete), given to
-/// World::apply at their times.
+/// What is simulated and judged: a scene, and commands that a scene file cannot hold (set_state, spawn, delete), given
+/// to World::apply at their times.
 struct Case
 {
   block_world::Scene scene;

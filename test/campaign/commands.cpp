@@ -74,15 +74,13 @@ Command CommandMaker::inputFor(const Block& block)
   const double mass = block.mass;
   switch (dice_.below(4))
   {
-    case 0:
-    {
+    case 0: {
       ThrustCommand thrust{ block.name, std::vector<double>(6, 0.0), duration() };
       for (double& level : thrust.levels)
         level = dice_.chance(0.5) ? 0.0 : dice_.round(0.0, 1.0);
       return thrust;
     }
-    case 1:
-    {
+    case 1: {
       SpringCommand spring;
       spring.body = block.name;
       spring.attach = pointIn(block);
@@ -92,11 +90,9 @@ Command CommandMaker::inputFor(const Block& block)
       spring.duration = dice_.chance(0.5) ? 0.0 : duration();
       return spring;
     }
-    case 2:
-    {
+    case 2: {
       const double most = 8.0 * mass, turn = 0.5 * mass * widthOf(block);
-      return WrenchCommand{ block.name, dice_.vector(most),
-                            dice_.round(-turn, turn) };
+      return WrenchCommand{ block.name, dice_.vector(most), dice_.round(-turn, turn) };
     }
     default:
       return set();
@@ -158,8 +154,7 @@ Command CommandMaker::scripted(int number)
       return SetStateCommand{ block.name, place(), dice_.round(-3.0, 3.0), velocity, dice_.round(-3.0, 3.0) };
     case 1:
       return DeleteCommand{ block.name };
-    default:
-    {
+    default: {
       Block spawned = makeShape(dice_);
       spawned.size.reset();
       spawned.name = "s" + std::to_string(number + 1);

@@ -17,9 +17,9 @@ using namespace block_world;
 constexpr int instants = 64;
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-// A disturbed copy differs by one rounding of every coordinate, a mirrored one by the roundings of every operation on the
-// way. An event is some hundred operations, of which there are up to a hundred on the way to where comparing ends; growth is
-// about the same for all of them, be they early or late.
+// A disturbed copy differs by one rounding of every coordinate, a mirrored one by the roundings of every operation on
+// the way. An event is some hundred operations, of which there are up to a hundred on the way to where comparing ends;
+// growth is about the same for all of them, be they early or late.
 constexpr double roundings = 1e4;
 // Comparing ends where the disturbed copies have gone this far from the run (of the length of the scene): the limit for
 // the others is then 1e-8 of it, far below anything that a wrong impulse or a wrong order does.
@@ -145,7 +145,8 @@ void compareCopies(const Case& item, const Track& track, double cpu, Result& res
       const double way = copy->advance(item, track, k);
       result.departure = std::max(result.departure, way / grown);
       if (way > roundings * grown)
-        return result.fail(copy->name, instant(item, k).seconds(), "off by " + shown(way) + " m, the disturbed copies by " + shown(grown));
+        return result.fail(copy->name, instant(item, k).seconds(),
+                           "off by " + shown(way) + " m, the disturbed copies by " + shown(grown));
     }
   }
 }

@@ -8,8 +8,8 @@
 
 namespace campaign
 {
-/// The same numbers from the same seed on every machine: the engine of the standard library is prescribed to the bit, its
-/// distributions are not, so these are made by hand, without functions whose last digit depends on the library.
+/// The same numbers from the same seed on every machine: the engine of the standard library is prescribed to the bit,
+/// its distributions are not, so these are made by hand, without functions whose last digit depends on the library.
 class Dice
 {
 public:

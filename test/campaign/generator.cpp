@@ -97,7 +97,8 @@ private:
       area += areaOf(blocks.back());
     }
     // The largest first: the small ones find room between them.
-    std::stable_sort(blocks.begin(), blocks.end(), [](const Block& p, const Block& q) { return areaOf(p) > areaOf(q); });
+    std::stable_sort(blocks.begin(), blocks.end(),
+                     [](const Block& p, const Block& q) { return areaOf(p) > areaOf(q); });
     const double filled = is_crowded_ ? dice_.in(0.25, 0.6) : dice_.in(0.03, 0.2);
     const double shape = dice_.in(0.7, 1.4), side = std::sqrt(area / filled);
     const double room = 1.1 * widthOf(blocks.front());
@@ -124,7 +125,8 @@ private:
     }
   }
 
-  /// Equal rectangles side by side and on one another, exactly touching or apart by some power of two: simultaneous hits.
+  /// Equal rectangles side by side and on one another, exactly touching or apart by some power of two: simultaneous
+  /// hits.
   void makeLattice()
   {
     has_walls_ = !is_adrift_;

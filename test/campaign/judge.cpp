@@ -25,8 +25,8 @@ std::string quoted(const std::string& path)
 
 std::string filesIn(const std::string& folder)
 {
-  return " --states " + quoted(folder + "/states.csv") + " --energy " + quoted(folder + "/energy.csv") + " --contacts " +
-         quoted(folder + "/contacts.csv");
+  return " --states " + quoted(folder + "/states.csv") + " --energy " + quoted(folder + "/energy.csv") +
+         " --contacts " + quoted(folder + "/contacts.csv");
 }
 
 /// A run as the first one found it.
@@ -125,7 +125,8 @@ void judgeFiles(const Case& item, const Tools& tools, Result& result)
     return result.fail("simulate", item.duration, "status " + std::to_string(simulated));
   result.in_files = true;
   const std::string report = tools.folder + "/report";
-  const int judged = run(checkerCommand(tools, scene, tools.folder) + " > " + quoted(report) + " 2>&1", 10.0 * tools.cpu);
+  const int judged =
+      run(checkerCommand(tools, scene, tools.folder) + " > " + quoted(report) + " 2>&1", 10.0 * tools.cpu);
   if (judged == 0)
     return;
   if (judged != 1)
@@ -150,8 +151,8 @@ Tools Tools::forCheck(const std::string& name) const
 
 std::string simulateCommand(const Tools& tools, const std::string& scene, const std::string& folder, double duration)
 {
-  return quoted(tools.simulate) + " " + quoted(scene) + " --duration " + shown(duration) + " --sample 0.001" + filesIn(folder) + " 2> " +
-         quoted(folder + "/log");
+  return quoted(tools.simulate) + " " + quoted(scene) + " --duration " + shown(duration) + " --sample 0.001" +
+         filesIn(folder) + " 2> " + quoted(folder + "/log");
 }
 
 std::string checkerCommand(const Tools& tools, const std::string& scene, const std::string& folder)

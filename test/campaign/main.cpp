@@ -45,12 +45,14 @@ std::optional<Options> parse(int argc, char** argv)
   add("jobs", po::value(&options.jobs), "how many at a time");
   add("longest", po::value(&options.longest), "s, cuts scenes that take longer");
   add("cpu", po::value(&options.tools.cpu), "s of CPU time that a run may take, else it is stuck");
-  add("simulate", po::value(&options.tools.simulate), "the program simulate; with it and the checker, runs are judged through files too");
+  add("simulate", po::value(&options.tools.simulate),
+      "the program simulate; with it and the checker, runs are judged through files too");
   add("checker", po::value(&options.tools.checker), "the program checker");
   add("save", po::value(&options.save), "folder for the scenes of failing seeds");
   add("shrink", po::bool_switch(&options.shrink), "make failing scenes smaller before saving them");
   add("shrink-seconds", po::value(&options.shrink_seconds), "time for each");
-  add("scene", po::value(&options.scene), "judge this scene file (with its script beside it) for --longest s instead of seeds");
+  add("scene", po::value(&options.scene),
+      "judge this scene file (with its script beside it) for --longest s instead of seeds");
   po::variables_map values;
   po::store(po::parse_command_line(argc, argv, description), values);
   po::notify(values);
@@ -101,7 +103,8 @@ Case shrunk(const Case& item, const Result& result, const Options& options, cons
   const Failure& failure = result.failures.front();
   Tools tools = options.tools.forCheck(failure.check);
   tools.folder = folder;
-  Shrinker shrinker(item, failure, [&](const Case& candidate) { return judgeApart(candidate, tools); }, options.shrink_seconds);
+  Shrinker shrinker(
+      item, failure, [&](const Case& candidate) { return judgeApart(candidate, tools); }, options.shrink_seconds);
   const Case small = shrinker.shrink();
   left = shrinker.failure();
   return small;
@@ -141,7 +144,8 @@ int run(const Options& options)
   const int count = options.scene.empty() ? options.count : 1;
   const double cpu = 2.0 * limitOf(options.tools) + options.shrink_seconds;
   eachApart(
-      count, options.jobs, [&](int i) { return judgeSeed(options.first + static_cast<std::uint64_t>(i), options); }, cpu,
+      count, options.jobs, [&](int i) { return judgeSeed(options.first + static_cast<std::uint64_t>(i), options); },
+      cpu,
       [&](int i, Result result) {
         result.seed = options.first + static_cast<std::uint64_t>(i);
         if (!result.failures.empty())

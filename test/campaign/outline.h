@@ -14,9 +14,9 @@ using Eigen::Vector2d;
 /// A block in the world, or a wall as one half-plane: the campaign's own geometry, by which it judges the engine's.
 struct Outline
 {
-  std::vector<Vector2d> corners;            ///< counter-clockwise; none for a wall
-  Vector2d inward = Vector2d::Zero();       ///< of a wall: unit, towards where blocks may be
-  double offset = 0.0;                      ///< of a wall: its points p have inward.p = offset
+  std::vector<Vector2d> corners;       ///< counter-clockwise; none for a wall
+  Vector2d inward = Vector2d::Zero();  ///< of a wall: unit, towards where blocks may be
+  double offset = 0.0;                 ///< of a wall: its points p have inward.p = offset
   Vector2d centre = Vector2d::Zero();
   double radius = 0.0;
 };

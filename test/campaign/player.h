@@ -39,7 +39,8 @@ public:
     return world_;
   }
 
-  /// Goes on to a time. With `each`, one promise at a time, calling it after every one and after every command. Throws Stuck.
+  /// Goes on to a time. With `each`, one promise at a time, calling it after every one and after every command. Throws
+  /// Stuck.
   void advance(const block_world::Time& target, const std::function<void()>& each = {});
   void finish(const std::function<void()>& each = {})
   {

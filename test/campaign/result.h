@@ -20,18 +20,18 @@ struct Result
   std::uint64_t seed = 0;
   std::vector<Failure> failures;
   long events = 0, impacts = 0;
-  bool rests = false;             ///< some contact carried force for a while
-  bool hits_together = false;     ///< two pairs at one instant
+  bool rests = false;                                 ///< some contact carried force for a while
+  bool hits_together = false;                         ///< two pairs at one instant
   bool keeps_momentum = false, keeps_energy = false;  ///< was held to that
-  bool in_files = false;          ///< judged by the checker too
-  double overlap = 0.0;           ///< deepest, in tolerances
-  double gain = 0.0;              ///< largest rise of energy less work, of the scale
-  double balance = 0.0;           ///< largest balance error, of the scale
-  double momentum = 0.0;          ///< largest change, of the scale
-  double departure = 0.0;         ///< of mirrored and re-ordered copies, in those of the disturbed copies
-  double compared = 0.0;          ///< share of the time for which copies were compared
-  double cpu = 0.0;               ///< s, of one run with readings at some 100 times
-  std::string saved;              ///< scene file of a failing case
+  bool in_files = false;                              ///< judged by the checker too
+  double overlap = 0.0;                               ///< deepest, in tolerances
+  double gain = 0.0;                                  ///< largest rise of energy less work, of the scale
+  double balance = 0.0;                               ///< largest balance error, of the scale
+  double momentum = 0.0;                              ///< largest change, of the scale
+  double departure = 0.0;  ///< of mirrored and re-ordered copies, in those of the disturbed copies
+  double compared = 0.0;   ///< share of the time for which copies were compared
+  double cpu = 0.0;        ///< s, of one run with readings at some 100 times
+  std::string saved;       ///< scene file of a failing case
 
   bool failed(const std::string& check) const
   {

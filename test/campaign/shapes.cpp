@@ -10,7 +10,8 @@ namespace
 {
 using block_world::Block;
 
-/// A point of the unit circle by its rational parametrisation, since the last digit of cos and sin depends on the machine.
+/// A point of the unit circle by its rational parametrisation, since the last digit of cos and sin depends on the
+/// machine.
 Vector2d onCircle(double u, bool left)
 {
   const double c = (1.0 - u * u) / (1.0 + u * u), s = 2.0 * u / (1.0 + u * u);
@@ -80,7 +81,8 @@ Block makeShape(Dice& dice)
 {
   Block block;
   block.name = "shape";
-  const double width = std::min(dice.octaves(0.1, 5), 3.0), height = Dice::few(std::min(3.0, width * dice.in(0.3, 3.0)));
+  const double width = std::min(dice.octaves(0.1, 5), 3.0),
+               height = Dice::few(std::min(3.0, width * dice.in(0.3, 3.0)));
   if (dice.chance(0.5))
   {
     block.size = Vector2d(width, height);

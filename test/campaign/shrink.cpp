@@ -47,7 +47,9 @@ Case without(const Case& item, const std::string& name)
 {
   Case less = item;
   Scene& scene = less.scene;
-  const auto erase = [](auto& list, const auto& goes) { list.erase(std::remove_if(list.begin(), list.end(), goes), list.end()); };
+  const auto erase = [](auto& list, const auto& goes) {
+    list.erase(std::remove_if(list.begin(), list.end(), goes), list.end());
+  };
   erase(scene.blocks, [&](const Block& b) { return b.name == name; });
   erase(scene.springs, [&](const Spring& s) { return s.from_block == name || s.to_block == name; });
   for (auto* commands : { &scene.inputs, &less.script })

@@ -7,8 +7,8 @@
 
 namespace campaign
 {
-/// Makes a failing case smaller for as long as the same check fails: a later start, an earlier end, fewer blocks, springs,
-/// commands and walls, simpler numbers.
+/// Makes a failing case smaller for as long as the same check fails: a later start, an earlier end, fewer blocks,
+/// springs, commands and walls, simpler numbers.
 class Shrinker
 {
 public:

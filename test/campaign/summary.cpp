@@ -19,7 +19,8 @@ double median(std::vector<double> values)
 template <class Value>
 const Result& worst(const std::vector<Result>& results, Value Result::*value)
 {
-  return *std::max_element(results.begin(), results.end(), [&](const Result& p, const Result& q) { return p.*value < q.*value; });
+  return *std::max_element(results.begin(), results.end(),
+                           [&](const Result& p, const Result& q) { return p.*value < q.*value; });
 }
 
 double share(const std::vector<Result>& results, bool Result::*what)
@@ -52,8 +53,8 @@ void printKinds(const std::vector<Result>& results, std::FILE* out)
 
 void printFailure(const Result& result, std::FILE* out)
 {
-  std::fprintf(out, "seed %llu failed%s%s\n", static_cast<unsigned long long>(result.seed), result.saved.empty() ? "" : ": ",
-               result.saved.c_str());
+  std::fprintf(out, "seed %llu failed%s%s\n", static_cast<unsigned long long>(result.seed),
+               result.saved.empty() ? "" : ": ", result.saved.c_str());
   for (const Failure& failure : result.failures)
     std::fprintf(out, "  %s at %.9g s: %s\n", failure.check.c_str(), failure.time, failure.detail.c_str());
   std::fflush(out);
@@ -76,12 +77,16 @@ void printSummary(const std::vector<Result>& results, std::FILE* out)
     cpu += r.cpu;
     bad += !r.failures.empty();
   }
-  std::fprintf(out, "%zu scenes, %ld failed, %.0f stuck; %.4g events, %.4g impacts, a scene has %.0f (median)\n", results.size(), bad,
-               stuck, events, hits, median(impacts));
-  std::fprintf(out, "%.0f %% of the scenes come to rest somewhere, %.0f %% have simultaneous hits, %.0f %% must keep their energy, "
-                    "%.0f %% their momentum,\n%.0f %% were judged by the checker, copies were compared for %.0f %% of the time (median)\n",
-               share(results, &Result::rests), share(results, &Result::hits_together), share(results, &Result::keeps_energy),
-               share(results, &Result::keeps_momentum), share(results, &Result::in_files), 100.0 * median(compared));
+  std::fprintf(out, "%zu scenes, %ld failed, %.0f stuck; %.4g events, %.4g impacts, a scene has %.0f (median)\n",
+               results.size(), bad, stuck, events, hits, median(impacts));
+  std::fprintf(out,
+               "%.0f %% of the scenes come to rest somewhere, %.0f %% have simultaneous hits, %.0f %% must keep their "
+               "energy, "
+               "%.0f %% their momentum,\n%.0f %% were judged by the checker, copies were compared for %.0f %% of the "
+               "time (median)\n",
+               share(results, &Result::rests), share(results, &Result::hits_together),
+               share(results, &Result::keeps_energy), share(results, &Result::keeps_momentum),
+               share(results, &Result::in_files), 100.0 * median(compared));
   printWorst("deepest overlap, tolerances", results, &Result::overlap, out);
   printWorst("largest rise of energy less work, of its scale", results, &Result::gain, out);
   printWorst("largest balance error, of the scale", results, &Result::balance, out);

@@ -12,8 +12,8 @@ namespace
 {
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 
-/// Every event rounds the sums it makes, the worst case adding up in one direction; the rest is room for the few hundred
-/// operations of the first ones.
+/// Every event rounds the sums it makes, the worst case adding up in one direction; the rest is room for the few
+/// hundred operations of the first ones.
 double rounding(const World& world)
 {
   return 1e-12 + epsilon * static_cast<double>(world.statistics().events);
@@ -189,10 +189,12 @@ void Watch::checkMomentum(const World& world)
   start_momentum_.angular_scale = std::max(start_momentum_.angular_scale, now.angular_scale);
   const double linear = (now.linear - start_momentum_.linear).norm() / std::max(1e-300, start_momentum_.linear_scale);
   const double angular =
-      is_turned_ ? 0.0 : std::abs(now.angular - start_momentum_.angular) / std::max(1e-300, start_momentum_.angular_scale);
+      is_turned_ ? 0.0 :
+                   std::abs(now.angular - start_momentum_.angular) / std::max(1e-300, start_momentum_.angular_scale);
   result_.momentum = std::max({ result_.momentum, linear, angular });
   if (!(std::max(linear, angular) <= rounding(world)))
-    result_.fail("momentum", world.now().seconds(), "changed by " + shown(linear) + " (linear), " + shown(angular) + " (angular) of the scale");
+    result_.fail("momentum", world.now().seconds(),
+                 "changed by " + shown(linear) + " (linear), " + shown(angular) + " (angular) of the scale");
 }
 
 }  // namespace campaign
