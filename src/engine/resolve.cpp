@@ -98,6 +98,8 @@ int World::Engine::memberOf(int body, const Time& time)
   m.angle = now.angle;
   m.velocity = now.velocity;
   m.omega = now.omega;
+  m.acceleration = now.acceleration;
+  m.alpha = now.alpha;
   m.inverse_mass = bodies[body].inverse_mass;
   m.inverse_inertia = bodies[body].inverse_inertia;
   member_of_[body] = static_cast<int>(group_.members.size());
@@ -153,6 +155,8 @@ void World::Engine::findTouches(const Time& time)
         view.angle = now.angle;
         view.velocity = now.velocity;
         view.omega = now.omega;
+        view.acceleration = now.acceleration;
+        view.alpha = now.alpha;
         return view;
       };
       Member view_a = viewed(pair.a), view_b = viewed(pair.b);
@@ -175,10 +179,10 @@ void World::Engine::findTouches(const Time& time)
         if (member_of_[view->body] < 0)
           view->frame = frame(view->body, time);
       const std::size_t before = group_.touches.size();
-      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches, 2.0 * detector_.guard());
+      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches, 2.0 * detector_.guard(), group_.noise());
+      velocity_decided_ = velocity_decided_ || finder_.velocityDecided();
       if (group_.touches.size() == before)
         continue;
-      velocity_decided_ = velocity_decided_ || finder_.velocityDecided();
       join(other, time);
       for (std::size_t t = before; t < group_.touches.size(); ++t)
       {

@@ -89,8 +89,12 @@ void TouchFinder::gather(const Candidate& candidate, const Body& face_body, cons
 }
 
 void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,
-                       std::vector<Touch>& touches, double closed)
+                       std::vector<Touch>& touches, double closed, double still)
 {
+  const auto speed = [](const Body& body, const Member& m) {
+    return m.velocity.norm() + (m.omega == 0.0 ? 0.0 : std::abs(m.omega) * body.shape.radius);
+  };
+  still = std::max(still, 1e-13 * (speed(body_a, a) + speed(body_b, b)));
   velocity_decided_ = false;
   tolerance_ = tolerance;
   candidates_.clear();
@@ -124,7 +128,8 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
   }
 
   const std::size_t first = touches.size();
-  double best_velocity = -std::numeric_limits<double>::infinity();
+  double best_velocity = -std::numeric_limits<double>::infinity(), best_acceleration = best_velocity;
+  bool undecided = false;
   Vec2 bisector = Vec2::Zero();
   Touch corner;
   bool any = false;
@@ -150,16 +155,20 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
     }
     if (found_.empty())
       continue;
-    double velocity = std::numeric_limits<double>::infinity();
+    double velocity = std::numeric_limits<double>::infinity(), acceleration = velocity;
     for (const Touch& touch : found_)
     {
       const bool straight = touch.a == a.body;
       velocity = std::min(velocity, normalVelocity(touch, straight ? a : b, straight ? b : a));
+      acceleration = std::min(acceleration, normalAcceleration(touch, straight ? a : b, straight ? b : a));
     }
     bisector += normal_sum.normalized();
-    if (!any || velocity > best_velocity)
+    const bool level = any && std::abs(velocity - best_velocity) <= still;
+    undecided = level || (undecided && velocity < best_velocity);
+    if (!any || (level ? acceleration > best_acceleration : velocity > best_velocity))
     {
       best_velocity = velocity;
+      best_acceleration = acceleration;
       corner = found_.front();
       touches.resize(first);
       touches.insert(touches.end(), found_.begin(), found_.end());
@@ -167,7 +176,12 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
     velocity_decided_ = velocity_decided_ || any;
     any = true;
   }
-  if (velocity_decided_ && best_velocity < 0.0 && bisector.squaredNorm() > 1e-6)
+  if (undecided && std::abs(best_velocity) <= still && best_acceleration >= 0.0)
+  {
+    touches.resize(first);
+    return;
+  }
+  if (velocity_decided_ && best_velocity < -still && bisector.squaredNorm() > 1e-6)
   {
     corner.corner = true;
     corner.normal = corner.a == a.body ? Vec2(bisector.normalized()) : Vec2(-bisector.normalized());

@@ -57,13 +57,15 @@ double contactGram(const Touch& p, const Touch& q, const std::vector<Member>& me
 ///
 /// Where flat meets flat, parallel within the tolerance, the touches of both faces count, coinciding ones once. Where corner meets corner
 /// several faces may separate the bodies equally well. There the feasible motions are the union of the half-spaces of the tied faces, so the bodies are in each other's way only if
-/// they approach on every one: then one touch along the bisector is given, else the touches of the face on which they separate most.
+/// they approach on every one: then one touch along the bisector is given, else the touches of the face on which they separate most. Where they
+/// neither approach nor separate on several, and nothing drives them together on every one, there is nothing in their way.
 class TouchFinder
 {
 public:
-  /// tolerance: m, the contact shell; closed: m, below which a difference of gaps is rounding.
+  /// tolerance: m, the contact shell; closed: m, below which a difference of gaps is rounding; still: m/s, the same of velocities. The members'
+  /// accelerations are those of their arcs.
   void find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,
-            std::vector<Touch>& touches, double closed);
+            std::vector<Touch>& touches, double closed, double still);
   /// Whether the last find had to choose between tied faces by the velocities.
   bool velocityDecided() const
   {
