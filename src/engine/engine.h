@@ -94,6 +94,7 @@ private:
   void regroup(const Time& time);
   void launch(const Time& time, const std::vector<int>& members);
   void promiseIsland(int island, const Time& time);
+  void endDecay(Member& member) const;
   void continueIsland(int island, const Time& time);
   void lookAtPairs(const Time& time);
   void lookAtPair(int pair, const Time& time);

@@ -444,15 +444,20 @@ bool Flow::store(int n)
   return any;
 }
 
-/// After order 2: without damping, springs and (where something turns with a body) rotation, everything else is zero. Contact forces change along
-/// such a parabola only where a vertex slides along the face of a body that moves, whose lever then changes.
+/// After order 2: without springs and (where something turns with a body) rotation, everything else is zero if no velocity changes that damping
+/// would act on. Contact forces change along such a parabola only where a vertex slides along the face of a body that moves, whose lever then changes.
 bool Flow::endsEarly() const
 {
-  if (field_->damping != 0.0 || !links_.empty())
+  if (!links_.empty())
     return false;
   for (std::size_t i = 0; i < work_.size(); ++i)
+  {
+    const Arc& arc = body_[i]->arc;
     if (work_[i].rotating && work_[i].trigonometric)
       return false;
+    if (field_->damping != 0.0 && (arc.x[2] != 0.0 || arc.y[2] != 0.0 || arc.angle[2] != 0.0))
+      return false;
+  }
   for (const RestWork& r : rest_work_)
     if (r.b >= 0 && (r.dx[1] != 0.0 || r.dy[1] != 0.0 || r.dx[2] != 0.0 || r.dy[2] != 0.0))
       return false;

@@ -498,6 +498,18 @@ void World::Engine::promiseIsland(int name, const Time& time)
   promises_.set(islandSlot(name), span < arc.horizon ? time + span : arc.end);
 }
 
+/// A component of the velocity that has decayed to the rounding of the others is zero: else it would go on decaying, in arcs as short as its time.
+void World::Engine::endDecay(Member& m) const
+{
+  constexpr double kDecayed = 64 * 2.220446049250313e-16;
+  const double radius = bodies[m.body].shape.radius, least = kDecayed * (m.velocity.norm() + radius * std::abs(m.omega));
+  for (double* component : { &m.velocity.x(), &m.velocity.y() })
+    if (std::abs(*component) <= least)
+      *component = 0.0;
+  if (radius * std::abs(m.omega) <= least)
+    m.omega = 0.0;
+}
+
 /// The arcs of an island without contact reach their end: the same motion, expanded anew. No trajectory changes, so no other promise does.
 void World::Engine::continueIsland(int name, const Time& time)
 {
@@ -513,6 +525,8 @@ void World::Engine::continueIsland(int name, const Time& time)
     m.angle = now.angle;
     m.velocity = now.velocity;
     m.omega = now.omega;
+    if (field_.damping > 0.0)
+      endDecay(m);
     island_state_.push_back(m);
   }
   closeSprings(name, time);
