@@ -18,7 +18,7 @@ std::string pack(const Result& r)
 {
   std::ostringstream out;
   out << std::setprecision(17) << r.seed << ' ' << r.events << ' ' << r.impacts << ' ' << r.rests << ' '
-      << r.hits_together << ' ' << r.keeps_momentum << ' ' << r.keeps_energy << ' ' << r.in_files << ' ' << r.overlap
+      << r.hits_together << ' ' << r.keeps_momentum << ' ' << r.keeps_energy << ' ' << r.in_files << ' ' << r.discontinuous << ' ' << r.overlap
       << ' ' << r.gain << ' ' << r.balance << ' ' << r.momentum << ' ' << r.departure << ' ' << r.compared << ' '
       << r.cpu << '\n'
       << r.saved << '\n';
@@ -36,7 +36,7 @@ Result unpack(const std::string& text)
   Result r;
   std::istringstream in(text);
   in >> r.seed >> r.events >> r.impacts >> r.rests >> r.hits_together >> r.keeps_momentum >> r.keeps_energy >>
-      r.in_files >> r.overlap >> r.gain >> r.balance >> r.momentum >> r.departure >> r.compared >> r.cpu;
+      r.in_files >> r.discontinuous >> r.overlap >> r.gain >> r.balance >> r.momentum >> r.departure >> r.compared >> r.cpu;
   in.ignore();
   std::getline(in, r.saved);
   Failure failure;

@@ -24,6 +24,7 @@ struct Result
   bool hits_together = false;                         ///< two pairs at one instant
   bool keeps_momentum = false, keeps_energy = false;  ///< was held to that
   bool in_files = false;                              ///< judged by the checker too
+  bool discontinuous = false;  ///< copies parted, and so did disturbed ones: comparing ended there
   double overlap = 0.0;                               ///< deepest, in tolerances
   double gain = 0.0;                                  ///< largest rise of energy less work, of the scale
   double balance = 0.0;                               ///< largest balance error, of the scale

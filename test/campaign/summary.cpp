@@ -83,10 +83,10 @@ void printSummary(const std::vector<Result>& results, std::FILE* out)
                "%.0f %% of the scenes come to rest somewhere, %.0f %% have simultaneous hits, %.0f %% must keep their "
                "energy, "
                "%.0f %% their momentum,\n%.0f %% were judged by the checker, copies were compared for %.0f %% of the "
-               "time (median)\n",
+               "time (median),\nin %.1f %% they parted, and so did copies that began a little off\n",
                share(results, &Result::rests), share(results, &Result::hits_together),
                share(results, &Result::keeps_energy), share(results, &Result::keeps_momentum),
-               share(results, &Result::in_files), 100.0 * median(compared));
+               share(results, &Result::in_files), 100.0 * median(compared), share(results, &Result::discontinuous));
   printWorst("deepest overlap, tolerances", results, &Result::overlap, out);
   printWorst("largest rise of energy less work, of its scale", results, &Result::gain, out);
   printWorst("largest balance error, of the scale", results, &Result::balance, out);

@@ -121,9 +121,9 @@ std::optional<Case> reordered(const Case& item)
   return other;
 }
 
-Case disturbed(const Case& item, double length, std::uint64_t seed)
+Case disturbed(const Case& item, double length, std::uint64_t seed, double roundings)
 {
-  constexpr double epsilon = std::numeric_limits<double>::epsilon();
+  const double epsilon = roundings * std::numeric_limits<double>::epsilon();
   Case other = item;
   Dice dice(seed);
   const auto nudge = [&](double& value, double size) {

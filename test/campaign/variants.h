@@ -18,6 +18,6 @@ std::optional<Case> reordered(const Case& item);
 
 /// Every coordinate and velocity of a movable block off by the rounding of a number of size `length` (m), up or down at
 /// random.
-Case disturbed(const Case& item, double length, std::uint64_t seed);
+Case disturbed(const Case& item, double length, std::uint64_t seed, double roundings = 1.0);
 
 }  // namespace campaign
