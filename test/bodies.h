@@ -98,7 +98,7 @@ inline ContactGroup groupOf(const std::vector<Body>& bodies, double tolerance = 
       if (!bodies[i].fixed || !bodies[j].fixed)
       {
         const std::size_t before = group.touches.size();
-        finder.find(bodies[i], group.members[i], bodies[j], group.members[j], tolerance, group.touches, 1e-13, 0.0);
+        finder.find(bodies[i], group.members[i], bodies[j], group.members[j], tolerance, group.touches, 1e-13, 0.0, true);
         for (std::size_t t = before; t < group.touches.size(); ++t)
           group.touches[t].pair = static_cast<int>(i * bodies.size() + j);
       }

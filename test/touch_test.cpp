@@ -15,7 +15,7 @@ constexpr double tolerance = 1e-6, closed = 1e-13;
 std::vector<Touch> touchesOf(const Body& a, const Body& b)
 {
   std::vector<Touch> touches;
-  TouchFinder().find(a, memberAt(a, 0), b, memberAt(b, 1), tolerance, touches, closed, 0.0);
+  TouchFinder().find(a, memberAt(a, 0), b, memberAt(b, 1), tolerance, touches, closed, 0.0, true);
   return touches;
 }
 
@@ -147,7 +147,7 @@ TEST(TouchFinder, CornerOnCornerChoosesByTheVelocity)
     const Body first = boxAt(1.0, 1.0, Vec2::Zero()), second = boxAt(1.0, 1.0, Vec2(1.0, 1.0), c.velocity);
     std::vector<Touch> touches;
     TouchFinder finder;
-    finder.find(first, memberAt(first, 0), second, memberAt(second, 1), tolerance, touches, closed, 0.0);
+    finder.find(first, memberAt(first, 0), second, memberAt(second, 1), tolerance, touches, closed, 0.0, true);
     EXPECT_TRUE(finder.velocityDecided());
     ASSERT_EQ(touches.size(), 1u);
     const Touch& t = touches.front();
@@ -178,7 +178,7 @@ TEST(TouchFinder, CornerIsDecidedByTheLargerGapFirst)
       const Body first = boxAt(1.0, 1.0, Vec2::Zero()), second = boxAt(1.0, 1.0, Vec2(1.0, 1.0) + hook, velocity);
       std::vector<Touch> touches;
       TouchFinder finder;
-      finder.find(first, memberAt(first, 0), second, memberAt(second, 1), tolerance, touches, closed, 0.0);
+      finder.find(first, memberAt(first, 0), second, memberAt(second, 1), tolerance, touches, closed, 0.0, true);
       EXPECT_FALSE(finder.velocityDecided());
       ASSERT_EQ(touches.size(), 1u);
       const Touch& t = touches.front();
@@ -215,8 +215,8 @@ TEST(TouchFinder, OrderOfTheBodiesDoesNotMatter)
     const Body b = boxAt(1.0, 1.0, turn.rotate(Vec2(1.0, shift)), random.vector(1.0), angle);
     std::vector<Touch> straight, swapped;
     const Member member_a = memberAt(a, 0), member_b = memberAt(b, 1);
-    TouchFinder().find(a, member_a, b, member_b, tolerance, straight, closed, 0.0);
-    TouchFinder().find(b, member_b, a, member_a, tolerance, swapped, closed, 0.0);
+    TouchFinder().find(a, member_a, b, member_b, tolerance, straight, closed, 0.0, true);
+    TouchFinder().find(b, member_b, a, member_a, tolerance, swapped, closed, 0.0, true);
     ASSERT_EQ(straight.size(), swapped.size()) << i;
     ASSERT_EQ(straight.size(), shift == 1.0 ? 1u : 2u) << i;
     Vec2 normal = Vec2::Zero();

@@ -88,7 +88,7 @@ private:
   void resolve(const Time& time);
   void join(int body, const Time& time);
   int memberOf(int body, const Time& time);
-  void findTouches(const Time& time);
+  void findTouches(const Time& time, int round);
   void report(const Time& time, bool last);
   void settle();
   void regroup(const Time& time);

@@ -124,7 +124,7 @@ void World::Engine::join(int body, const Time& time)
 }
 
 /// All touches of the group's bodies; who touches them joins the group with its island.
-void World::Engine::findTouches(const Time& time)
+void World::Engine::findTouches(const Time& time, int round)
 {
   group_.touches.clear();
   group_pairs_.clear();
@@ -179,7 +179,7 @@ void World::Engine::findTouches(const Time& time)
         if (member_of_[view->body] < 0)
           view->frame = frame(view->body, time);
       const std::size_t before = group_.touches.size();
-      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches, 2.0 * detector_.guard(), group_.noise());
+      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches, 2.0 * detector_.guard(), group_.noise(), round > 0);
       velocity_decided_ = velocity_decided_ || finder_.velocityDecided();
       if (group_.touches.size() == before)
         continue;
@@ -282,7 +282,7 @@ void World::Engine::resolve(const Time& time)
   // Corner on corner is decided by the velocities: look again with the new ones.
   for (int round = 0;; ++round)
   {
-    findTouches(time);
+    findTouches(time, round);
     if (round == 0)
       for (const Member& m : group_.members)
         if (!bodies[m.body].fixed && bodies[m.body].island == m.body)
@@ -290,7 +290,7 @@ void World::Engine::resolve(const Time& time)
     for (Member& m : group_.members)
       if (!bodies[m.body].fixed)
         freeAcceleration(m);
-    if (group_.touches.empty())
+    if (group_.touches.empty() && !(velocity_decided_ && round == 0))
     {
       report(time, true);
       break;
@@ -305,7 +305,7 @@ void World::Engine::resolve(const Time& time)
       farthest = std::max(farthest, m.frame.position.lpNorm<Eigen::Infinity>());
     scales.closed = 2.0 * detector_.guard() + kRounding * (fastest + 4.0 * farthest);
     impact_loss_ += group_.collide(scales);
-    const bool again = velocity_decided_ && round < 8 && group_.struck();
+    const bool again = velocity_decided_ && round < 8 && (round == 0 || group_.struck());
     report(time, !again);
     if (!again)
       break;

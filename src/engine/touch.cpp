@@ -89,7 +89,7 @@ void TouchFinder::gather(const Candidate& candidate, const Body& face_body, cons
 }
 
 void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,
-                       std::vector<Touch>& touches, double closed, double still)
+                       std::vector<Touch>& touches, double closed, double still, bool ties)
 {
   const auto speed = [](const Body& body, const Member& m) {
     return m.velocity.norm() + (m.omega == 0.0 ? 0.0 : std::abs(m.omega) * body.shape.radius);
@@ -138,10 +138,10 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
     found_.clear();
     Vec2 normal_sum = Vec2::Zero();
     // Candidates come with the largest gap in front, and so do the clusters.
-    bool ties = false;
+    bool tied = false;
     for (const Candidate& c : candidates_)
-      ties = ties || (c.cluster == cluster && c.gap >= best - closed);
-    if (any && !ties)
+      tied = tied || (c.cluster == cluster && c.gap >= best - closed);
+    if (any && !tied)
       continue;
     for (const Candidate& c : candidates_)
     {
@@ -176,7 +176,7 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
     velocity_decided_ = velocity_decided_ || any;
     any = true;
   }
-  if (undecided && std::abs(best_velocity) <= still && best_acceleration >= 0.0)
+  if (undecided && std::abs(best_velocity) <= still && !ties)
   {
     touches.resize(first);
     return;

@@ -58,14 +58,14 @@ double contactGram(const Touch& p, const Touch& q, const std::vector<Member>& me
 /// Where flat meets flat, parallel within the tolerance, the touches of both faces count, coinciding ones once. Where corner meets corner
 /// several faces may separate the bodies equally well. There the feasible motions are the union of the half-spaces of the tied faces, so the bodies are in each other's way only if
 /// they approach on every one: then one touch along the bisector is given, else the touches of the face on which they separate most. Where they
-/// neither approach nor separate on several, and nothing drives them together on every one, there is nothing in their way.
+/// neither approach nor separate on several, no impact is in their way; what they may rest on is then the face on which the fewest forces press.
 class TouchFinder
 {
 public:
-  /// tolerance: m, the contact shell; closed: m, below which a difference of gaps is rounding; still: m/s, the same of velocities. The members'
-  /// accelerations are those of their arcs.
+  /// tolerance: m, the contact shell; closed: m, below which a difference of gaps is rounding; still: m/s, the same of velocities; ties: whether
+  /// touches on faces that tie in their velocities, too, are wanted.
   void find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,
-            std::vector<Touch>& touches, double closed, double still);
+            std::vector<Touch>& touches, double closed, double still, bool ties);
   /// Whether the last find had to choose between tied faces by the velocities.
   bool velocityDecided() const
   {
