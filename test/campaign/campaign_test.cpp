@@ -30,6 +30,22 @@ TEST(Campaign, ManySeeds)
   EXPECT_EQ(std::system(command.c_str()), 0);
 }
 
+// Scenes in which the campaign once found a fault of the engine, made as small as they go.
+TEST(Campaign, FaultsOnceFound)
+{
+  int scenes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(BLOCK_WORLD_DIR "/test/campaign/scenes"))
+  {
+    if (entry.path().extension() != ".yaml")
+      continue;
+    const std::string command = "'" BLOCK_WORLD_CAMPAIGN "' --scene '" + entry.path().string() +
+                                "' --longest 4 --cpu 8 --simulate '" BLOCK_WORLD_SIMULATE "' --checker '" BLOCK_WORLD_CHECKER "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << entry.path();
+    ++scenes;
+  }
+  EXPECT_GT(scenes, 10);
+}
+
 /// FNV-1a.
 std::uint64_t hashOf(const std::string& text)
 {
