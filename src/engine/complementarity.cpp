@@ -328,7 +328,7 @@ void Complementarity::search(double noise)
   for (double value : l_)
     largest = std::max(largest, value);
   for (int i = 0; i < n; ++i)
-    if (l_[i] > 1e-12 * largest)
+    if (l_[i] > 1e-10 * largest)
       support_.push_back(i);
 }
 

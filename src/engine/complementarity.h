@@ -94,7 +94,8 @@ public:
   {
     return l_;
   }
-  /// Positions within rows at which l > 1e-12 of the largest l, ascending: those that carry load. Linearly independent.
+  /// Positions within rows at which l > 1e-10 of the largest l, ascending: those that carry load. Linearly independent. (A contact force ends below
+  /// -1e-12 of the largest: what lies between is neither taken up nor let go, and rounding cannot do both in turn.)
   const std::vector<int>& support() const
   {
     return support_;
