@@ -147,6 +147,7 @@ void World::Engine::dissolve(int body, const Time& time)
 /// Bodies changed in number: everything is built anew from the scene, with the present states, forces and springs of those that stay.
 void World::Engine::rebuild(const Time& time)
 {
+  const double before = storedTotal(time);
   for (int i = 0; i < block_count; ++i)
     if (!bodies[i].fixed && bodies[i].island == i)
       closeIsland(i, time);
@@ -182,6 +183,8 @@ void World::Engine::rebuild(const Time& time)
     body.island = i;
     islands_[i].bodies.assign(1, i);
   }
+  // The jump is the command's; what impacts take at once is theirs.
+  command_work_ += storedTotal(time) - before;
   pairAll();
   resolveAll(time);
   for (int i = 0; i < block_count; ++i)
@@ -413,10 +416,8 @@ struct World::Engine::Handler
     }
     if (!accept())
       return;
-    const double before = engine.storedTotal(time);
     engine.scene.blocks.push_back(with.blocks.back());
     engine.rebuild(time);
-    engine.command_work_ += engine.storedTotal(time) - before;
   }
 
   void operator()(const DeleteCommand& c)
@@ -427,13 +428,11 @@ struct World::Engine::Handler
       return refuse("body: there is no block '" + c.body + "'");
     if (!accept())
       return;
-    const double before = engine.storedTotal(time);
     scene.blocks.erase(block);
     scene.springs.erase(std::remove_if(scene.springs.begin(), scene.springs.end(),
                                        [&](const Spring& s) { return s.from_block == c.body || s.to_block == c.body; }),
                         scene.springs.end());
     engine.rebuild(time);
-    engine.command_work_ += engine.storedTotal(time) - before;
   }
 
   void operator()(const ResetCommand&)

@@ -9,6 +9,9 @@
 #include <type_traits>
 #include <utility>
 
+#include <yaml-cpp/eventhandler.h>
+#include <yaml-cpp/yaml.h>
+
 #include "colors.h"
 #include "yaml_entry.h"
 
@@ -325,15 +328,61 @@ void complete(Reading& reading, const YAML::Node& root, const std::string& file,
   reading.scene.tolerance = tolerance;
 }
 
+/// Listens to the parser for where documents begin.
+class DocumentLines : public YAML::EventHandler
+{
+public:
+  void OnDocumentStart(const YAML::Mark& mark) override
+  {
+    lines.push_back(mark.line + 1);
+  }
+  void OnDocumentEnd() override
+  {
+  }
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override
+  {
+  }
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override
+  {
+  }
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override
+  {
+  }
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override
+  {
+  }
+  void OnSequenceEnd() override
+  {
+  }
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override
+  {
+  }
+  void OnMapEnd() override
+  {
+  }
+
+  std::vector<int> lines;
+};
+
+/// Refuses a second document. Not by YAML::LoadAll, which never ends where a stray comma follows the first one.
+void requireOneDocument(const std::string& text, const std::string& file)
+{
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentLines documents;
+  while (documents.lines.size() < 2 && parser.HandleNextDocument(documents))
+    ;
+  if (documents.lines.size() > 1)
+    throw SceneFileError(complaint(file, std::max(documents.lines[1], 1), "",
+                                   "a scene file holds one YAML document, this is a second one"));
+}
+
 YAML::Node parse(const std::string& text, const std::string& file)
 {
   try
   {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(text);
-    if (documents.size() > 1)
-      throw SceneFileError(
-          complaint(file, lineOf(documents[1], ""), "", "a scene file holds one YAML document, this is a second one"));
-    return documents.empty() ? YAML::Node() : documents.front();
+    requireOneDocument(text, file);
+    return YAML::Load(text);
   }
   catch (const YAML::Exception& error)
   {
