@@ -106,8 +106,7 @@ Command readCommand(Bytes& bytes)
 {
   switch (bytes.below(8))
   {
-    case 0:
-    {
+    case 0: {
       ThrustCommand thrust;
       thrust.body = anyName(bytes);
       const int bits = bytes.byte();
@@ -116,8 +115,7 @@ Command readCommand(Bytes& bytes)
       thrust.duration = bits & 64 ? bytes.risky() : bytes.of(kSpans);
       return thrust;
     }
-    case 1:
-    {
+    case 1: {
       SpringCommand spring;
       const int kind = bytes.byte();
       spring.active = kind % 4 != 3;
@@ -130,8 +128,7 @@ Command readCommand(Bytes& bytes)
       spring.duration = bytes.of(kSpans);
       return spring;
     }
-    case 2:
-    {
+    case 2: {
       WrenchCommand wrench;
       wrench.body = anyName(bytes);
       wrench.force.x() = bytes.risky();
@@ -139,8 +136,7 @@ Command readCommand(Bytes& bytes)
       wrench.torque = bytes.risky();
       return wrench;
     }
-    case 3:
-    {
+    case 3: {
       SetCommand set;
       const int which = bytes.byte();
       if (which & 1)
@@ -155,8 +151,7 @@ Command readCommand(Bytes& bytes)
         set.mass = which & 4 ? bytes.risky() : bytes.of(kMasses);
       return set;
     }
-    case 4:
-    {
+    case 4: {
       SetStateCommand state;
       state.body = anyName(bytes);
       state.position.x() = bytes.risky();
@@ -166,8 +161,7 @@ Command readCommand(Bytes& bytes)
       state.omega = bytes.risky();
       return state;
     }
-    case 5:
-    {
+    case 5: {
       SpawnCommand spawn;
       spawn.block = readBlock(bytes, bytes.below(8));
       return spawn;

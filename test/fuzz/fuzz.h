@@ -6,24 +6,27 @@
 
 #include "block_world/world.h"
 
-// What the fuzz targets do with an input. Plain functions, so that an input that once failed is replayed by a plain test.
+// What the fuzz targets do with an input. Plain functions, so that an input that once failed is replayed by a plain
+// test.
 
 namespace block_world
 {
 namespace fuzz
 {
-/// The input as a scene file: loaded, written and loaded again; a small one is set in motion. Returns what is wrong, or nothing.
+/// The input as a scene file: loaded, written and loaded again; a small one is set in motion. Returns what is wrong, or
+/// nothing.
 std::string runScene(const std::uint8_t* data, std::size_t size);
 
-/// The input as a small scene and what is done with it: commands, good and bad, and advances. Returns what is wrong, or nothing.
+/// The input as a small scene and what is done with it: commands, good and bad, and advances. Returns what is wrong, or
+/// nothing.
 std::string runCommands(const std::uint8_t* data, std::size_t size);
 
 /// Watches what holds in every world at every time.
 class Invariants
 {
 public:
-  /// States are finite, nothing overlaps by more than the tolerance, the energy account is balanced, impacts have given nothing.
-  /// Returns what is wrong, or nothing.
+  /// States are finite, nothing overlaps by more than the tolerance, the energy account is balanced, impacts have given
+  /// nothing. Returns what is wrong, or nothing.
   std::string check(const World& world);
 
 private:

@@ -13,8 +13,8 @@ namespace
 constexpr std::size_t kMostBlocks = 12;
 constexpr std::int64_t kMostEvents = 300;
 
-/// Whether a number of the scene is so far from 1 that products of four of them may leave the range of doubles, or that sums of energies
-/// drown in rounding: such a scene must not crash, but need not come out right.
+/// Whether a number of the scene is so far from 1 that products of four of them may leave the range of doubles, or that
+/// sums of energies drown in rounding: such a scene must not crash, but need not come out right.
 bool isExtreme(double value)
 {
   return value != 0.0 && !(std::abs(value) > 1e-4 && std::abs(value) < 1e4);
@@ -29,7 +29,8 @@ bool isExtreme(const Block& block)
 {
   return isExtreme(block.mass) || isExtreme(block.position) || isExtreme(block.angle) || isExtreme(block.velocity) ||
          isExtreme(block.omega) ||
-         std::any_of(block.vertices.begin(), block.vertices.end(), [](const Eigen::Vector2d& v) { return v.norm() > 1e4 || v.norm() < 1e-2; });
+         std::any_of(block.vertices.begin(), block.vertices.end(),
+                     [](const Eigen::Vector2d& v) { return v.norm() > 1e4 || v.norm() < 1e-2; });
 }
 
 bool isExtreme(const Spring& spring)
@@ -46,7 +47,8 @@ bool isExtreme(const Scene& scene)
   return isExtreme(scene.gravity) || isExtreme(scene.damping) || isExtreme(scene.rotational_damping_ratio) ||
          isExtreme(scene.thrust) || !scene.inputs.empty() ||
          std::any_of(scene.blocks.begin(), scene.blocks.end(), [](const Block& block) { return isExtreme(block); }) ||
-         std::any_of(scene.springs.begin(), scene.springs.end(), [](const Spring& spring) { return isExtreme(spring); });
+         std::any_of(scene.springs.begin(), scene.springs.end(),
+                     [](const Spring& spring) { return isExtreme(spring); });
 }
 
 }  // namespace
