@@ -189,6 +189,17 @@ TEST(Commands, SpawnAndDelete)
   expectExact(world, 1e-11);
 }
 
+// A spawned block that strikes what it touches: 1/2 m v^2 is the command's, 1/2 m v^2 (1 - e^2) the impact's.
+TEST(Commands, SpawnIntoAnImpact)
+{
+  World world(makeScene(0.0, 0.5, {}, onFloor()));
+  ASSERT_TRUE(world.apply(SpawnCommand{ moving(makeBox("new", { 1, 1 }, { 0, 0.5 }), { 0, -2 }) }).ok);
+  EXPECT_NEAR(world.state(0).velocity.y(), 1.0, 1e-15);
+  EXPECT_NEAR(world.energy().command_work, 2.0, 1e-15);
+  EXPECT_NEAR(world.energy().impact_loss, 1.5, 1e-15);
+  expectExact(world, 1e-15);
+}
+
 struct Refusal
 {
   std::string what;

@@ -30,7 +30,9 @@ public:
   std::string check(const World& world);
 
 private:
-  double scale_ = 0.0;  ///< J, largest energy met so far
+  /// J, largest energy met so far. Forces of newtons do work on rounding errors of positions where there is no energy
+  /// at all.
+  double scale_ = 1.0;
 };
 
 }  // namespace fuzz
