@@ -328,40 +328,55 @@ void complete(Reading& reading, const YAML::Node& root, const std::string& file,
   reading.scene.tolerance = tolerance;
 }
 
-/// Listens to the parser for where documents begin.
+/// Listens to the parser for the line on which each document's content begins.
 class DocumentLines : public YAML::EventHandler
 {
 public:
-  void OnDocumentStart(const YAML::Mark& mark) override
+  void OnDocumentStart(const YAML::Mark&) override
   {
-    lines.push_back(mark.line + 1);
+    begins_ = true;
   }
   void OnDocumentEnd() override
   {
   }
-  void OnNull(const YAML::Mark&, YAML::anchor_t) override
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override
   {
+    note(mark);
   }
-  void OnAlias(const YAML::Mark&, YAML::anchor_t) override
+  void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override
   {
+    note(mark);
   }
-  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override
+  void OnScalar(const YAML::Mark& mark, const std::string&, YAML::anchor_t, const std::string&) override
   {
+    note(mark);
   }
-  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override
+  void OnSequenceStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override
   {
+    note(mark);
   }
   void OnSequenceEnd() override
   {
   }
-  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override
+  void OnMapStart(const YAML::Mark& mark, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override
   {
+    note(mark);
   }
   void OnMapEnd() override
   {
   }
 
   std::vector<int> lines;
+
+private:
+  void note(const YAML::Mark& mark)
+  {
+    if (begins_)
+      lines.push_back(mark.line + 1);
+    begins_ = false;
+  }
+
+  bool begins_ = false;
 };
 
 /// Refuses a second document. Not by YAML::LoadAll, which never ends where a stray comma follows the first one.

@@ -33,6 +33,7 @@ private:
   /// J, largest energy met so far. Forces of newtons do work on rounding errors of positions where there is no energy
   /// at all.
   double scale_ = 1.0;
+  int checks_ = 0;
 };
 
 }  // namespace fuzz
