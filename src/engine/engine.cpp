@@ -50,6 +50,7 @@ void World::Engine::build()
   promises_.reset(pairSlot(0));
   cache_.assign(count, Cached());
   member_of_.assign(count, -1);
+  group_.clear();  // its members are bodies by their former numbers
   detector_.configure(scene.tolerance, resolution_);
   configureGrid();
 }
