@@ -130,14 +130,22 @@ public:
   /// Thrusters of a body and the level each has now.
   const std::vector<Thruster>& thrusters(int body) const;
   std::vector<double> thrustLevels(int body) const;
-  /// FNV-1a over the raw bits of all states and of the inputs in force.
+  /// FNV-1a over the raw bits of all states, of the forces in force, of the timed inputs to come and of all parameters that act on the motion.
   std::uint64_t stateHash() const;
   const Statistics& statistics() const;
+
+  /// The whole state as bytes, with a version and a checksum: what restore makes of it goes on bit for bit as this one does. Left out is what
+  /// waits to be taken (takeContacts, takeInputs).
+  std::string save() const;
+  /// Later by whole seconds (which changes no bit of the motion) or, where negative, earlier. Throws std::runtime_error with the reason where
+  /// the bytes are not what save gave.
+  static World restore(const std::string& saved, std::int64_t seconds_later = 0);
   /// Notes from loading (completeScene).
   const std::vector<std::string>& notes() const;
 
 private:
   class Engine;
+  explicit World(std::unique_ptr<Engine> engine);
   std::unique_ptr<Engine> engine_;
 };
 

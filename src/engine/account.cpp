@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "engine.h"
 
@@ -325,43 +324,6 @@ std::vector<SpringState> World::Engine::springs() const
     result.push_back(state);
   }
   return result;
-}
-
-std::uint64_t World::Engine::stateHash() const
-{
-  // FNV-1a, 64 bit.
-  std::uint64_t hash = 14695981039346656037ull;
-  const auto add = [&hash](double value) {
-    unsigned char bytes[sizeof value];
-    std::memcpy(bytes, &value, sizeof value);
-    for (unsigned char byte : bytes)
-      hash = (hash ^ byte) * 1099511628211ull;
-  };
-  const auto addTime = [&](const Time& time) {
-    add(static_cast<double>(time.wholeSeconds()));
-    add(time.fraction());
-  };
-  add(field_.gravity);
-  add(field_.damping);
-  add(field_.rotational_damping);
-  for (const Body& body : bodies)
-  {
-    add(body.elasticity);
-    if (body.fixed)
-      continue;
-    const MotionState state = body.stateAt(now);
-    for (double value : { state.position.x(), state.position.y(), state.angle, state.velocity.x(), state.velocity.y(), state.omega,
-                          body.mass, body.push.x(), body.push.y(), body.twist })
-      add(value);
-    addTime(body.thrust_until);
-    if (!body.mouse.active)
-      continue;
-    for (double value : { body.mouse.attach.x(), body.mouse.attach.y(), body.mouse.anchor.x(), body.mouse.anchor.y(),
-                          body.mouse.stiffness, body.mouse.damping })
-      add(value);
-    addTime(body.mouse.until);
-  }
-  return hash;
 }
 
 }  // namespace block_world

@@ -28,6 +28,8 @@ class World::Engine
 {
 public:
   Engine(Scene scene, const Time& start);
+  /// From what save() gave. Throws std::runtime_error.
+  Engine(const std::string& saved, std::int64_t seconds_later);
 
   Time advance(Time target, std::int64_t max_events);
   Applied apply(const Command& command);
@@ -38,6 +40,7 @@ public:
   double overlap() const;
   std::vector<SpringState> springs() const;
   std::uint64_t stateHash() const;
+  std::string save() const;
 
   // Read by World; written by the engine only.
   Time now;
@@ -75,6 +78,11 @@ private:
   {
     return 1 + 3 * static_cast<int>(bodies.size()) + pair;
   }
+
+  // snapshot.cpp: to bytes and back
+  template <class A>
+  void exchange(A& archive);
+  void clearWorkspace();
 
   // neighbours.cpp: which pairs there are
   void configureGrid();
@@ -158,7 +166,7 @@ private:
   Flow flow_;
 
   // Timed inputs of the scene, from input_start_ on.
-  std::size_t next_input_ = 0;
+  std::uint64_t next_input_ = 0;
   Time input_start_;
 
   // Account since its start.

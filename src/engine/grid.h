@@ -35,6 +35,12 @@ public:
   };
   Box keeps(int body) const;
 
+  template <class A>
+  void exchange(A& archive)
+  {
+    archive(levels_, homes_, entries_, heads_);
+  }
+
 private:
   struct Cell
   {
@@ -44,6 +50,11 @@ private:
     {
       return level == other.level && x == other.x && y == other.y;
     }
+    template <class A>
+    void exchange(A& archive)
+    {
+      archive(level, x, y);
+    }
   };
   /// One listing of a body; those whose cells hash alike form a list.
   struct Entry
@@ -51,17 +62,32 @@ private:
     Cell cell;
     int body = -1;
     int next = -1, previous = -1;
+    template <class A>
+    void exchange(A& archive)
+    {
+      archive(cell, body, next, previous);
+    }
   };
   struct Home
   {
     int level = -1;  ///< -1: not in the grid
     int first = -1;  ///< its entries, one a level from its own up
     bool listed = false;
+    template <class A>
+    void exchange(A& archive)
+    {
+      archive(level, first, listed);
+    }
   };
   struct Level
   {
     double size = 0.0;  ///< m
     int shift = 0;      ///< cells of this level hold 2^shift of the finest, along each axis
+    template <class A>
+    void exchange(A& archive)
+    {
+      archive(size, shift);
+    }
   };
 
   const Cell& cell(int body, int level) const

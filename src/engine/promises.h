@@ -53,6 +53,12 @@ public:
     return times_[heap_.front()];
   }
 
+  template <class A>
+  void exchange(A& archive)
+  {
+    archive(times_, heap_, place_);
+  }
+
 private:
   bool before(int a, int b) const
   {

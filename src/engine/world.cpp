@@ -7,6 +7,9 @@ namespace block_world
 World::World(Scene scene, const Time& start) : engine_(std::make_unique<Engine>(std::move(scene), start))
 {
 }
+World::World(std::unique_ptr<Engine> engine) : engine_(std::move(engine))
+{
+}
 World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
@@ -116,6 +119,16 @@ std::vector<double> World::thrustLevels(int body) const
 std::uint64_t World::stateHash() const
 {
   return engine_->stateHash();
+}
+
+std::string World::save() const
+{
+  return engine_->save();
+}
+
+World World::restore(const std::string& saved, std::int64_t seconds_later)
+{
+  return World(std::make_unique<Engine>(saved, seconds_later));
 }
 
 const Statistics& World::statistics() const
