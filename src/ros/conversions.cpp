@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
 
 #include "block_world/scene_yaml.h"
 
@@ -14,13 +17,10 @@ Eigen::Vector2d toVector(const geometry_msgs::Point& point)
   return Eigen::Vector2d(point.x, point.y);
 }
 
-void set(msg::Input& input, const char* name, const std::optional<double>& value)
-{
-  if (!value)
-    return;
-  input.names.push_back(name);
-  input.values.push_back(*value);
-}
+const std::pair<const char*, std::optional<double> SetCommand::*> PARAMETERS[] = {
+  { "gravity", &SetCommand::gravity }, { "elasticity", &SetCommand::elasticity }, { "damping", &SetCommand::damping },
+  { "thrust", &SetCommand::thrust },   { "mass", &SetCommand::mass },
+};
 
 /// Fills in the payload of an Input, one overload per command.
 struct Payload
@@ -46,11 +46,12 @@ struct Payload
   void operator()(const SetCommand& command)
   {
     input.kind = msg::Input::SET;
-    set(input, "gravity", command.gravity);
-    set(input, "elasticity", command.elasticity);
-    set(input, "damping", command.damping);
-    set(input, "thrust", command.thrust);
-    set(input, "mass", command.mass);
+    for (const auto& [name, member] : PARAMETERS)
+      if (command.*member)
+      {
+        input.names.push_back(name);
+        input.values.push_back(*(command.*member));
+      }
   }
   void operator()(const SetStateCommand& command)
   {
@@ -132,6 +133,50 @@ SetStateCommand toCommand(const msg::BodyState& message)
 {
   return { message.name, Eigen::Vector2d(message.x, message.y), message.angle, Eigen::Vector2d(message.vx, message.vy),
            message.omega };
+}
+
+namespace
+{
+SetCommand toSetCommand(const msg::Input& input)
+{
+  SetCommand command;
+  if (input.names.size() != input.values.size())
+    throw std::runtime_error("not one value per name");
+  for (std::size_t i = 0; i < input.names.size(); ++i)
+  {
+    const auto place = std::find_if(std::begin(PARAMETERS), std::end(PARAMETERS),
+                                    [&](const auto& parameter) { return input.names[i] == parameter.first; });
+    if (place == std::end(PARAMETERS))
+      throw std::runtime_error("there is no parameter '" + input.names[i] + "'");
+    command.*(place->second) = input.values[i];
+  }
+  return command;
+}
+}  // namespace
+
+Command toCommand(const msg::Input& input)
+{
+  switch (input.kind)
+  {
+    case msg::Input::THRUST:
+      return toCommand(input.thrust);
+    case msg::Input::SPRING:
+      return toCommand(input.spring, 0.0, 0.0);  // none is left open
+    case msg::Input::WRENCH:
+      return toCommand(input.wrench, input.body);
+    case msg::Input::SET:
+      return toSetCommand(input);
+    case msg::Input::SET_STATE:
+      return toCommand(input.state);
+    case msg::Input::SPAWN:
+      return SpawnCommand{ loadSceneText(input.text).blocks.at(0) };
+    case msg::Input::DELETE:
+      return DeleteCommand{ input.body };
+    case msg::Input::RESET:
+      return ResetCommand();
+    default:
+      throw std::runtime_error("commands of kind " + std::to_string(input.kind) + " are unknown");
+  }
 }
 
 std::string bodyOfFrame(const World& world, const std::string& frame, const std::string& prefix)

@@ -21,6 +21,9 @@ WrenchCommand toCommand(const geometry_msgs::Wrench& message, const std::string&
 
 SetStateCommand toCommand(const msg::BodyState& message);
 
+/// A command as logged; not for LOAD_SCENE and RESTORE, which replace the world. Throws std::runtime_error.
+Command toCommand(const msg::Input& input);
+
 /// Name of the block whose TF frame this is, given with or without the prefix and with or without a leading slash; the
 /// frame without prefix where no block fits.
 std::string bodyOfFrame(const World& world, const std::string& frame, const std::string& prefix);

@@ -12,6 +12,8 @@
 #include <block_world/Energy.h>
 #include <block_world/Input.h>
 #include <block_world/LoadScene.h>
+#include <block_world/RestoreState.h>
+#include <block_world/SaveState.h>
 #include <block_world/SetState.h>
 #include <block_world/SpawnBlock.h>
 #include <block_world/SpringForce.h>
@@ -31,6 +33,8 @@ using block_world::Contacts;
 using block_world::DeleteBlock;
 using block_world::Input;
 using block_world::LoadScene;
+using block_world::RestoreState;
+using block_world::SaveState;
 using block_world::SetState;
 using block_world::SpawnBlock;
 using block_world::SpringForce;

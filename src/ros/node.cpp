@@ -33,6 +33,11 @@ ros::NodeHandle onQueue(ros::NodeHandle handle, ros::CallbackQueue& queue)
   return handle;
 }
 
+std::unique_ptr<BagWriter> openBag(const std::string& path, const std::string& caller)
+{
+  return path.empty() ? nullptr : std::make_unique<BagWriter>(path, caller);
+}
+
 }  // namespace
 
 Node::Node(const ros::NodeHandle& handle, const Parameters& parameters, const SceneSource& source, Scene scene)
@@ -41,7 +46,8 @@ Node::Node(const ros::NodeHandle& handle, const Parameters& parameters, const Sc
   , source_(source)
   , world_(std::move(scene))
   , time_(handle_, parameters.publish_clock)
-  , publishers_(handle_, world_, parameters.frame_id, parameters.tf_prefix)
+  , bag_(openBag(parameters.record, handle_.getNamespace()))
+  , publishers_({ &handle_, bag_.get(), handle_.getNamespace() }, world_, parameters.frame_id, parameters.tf_prefix)
   , pacer_(time_.follows() || parameters.real_time_factor == 0.0 ? 1.0 : parameters.real_time_factor)
   , schedule_(parameters.publish_rate)
   , diagnostics_(handle_)
@@ -81,6 +87,25 @@ void Node::run()
     catchUp();
     applyPending();
     publishDue();
+  }
+  closeBag();
+}
+
+/// The run is over: what has happened since the last state belongs to it.
+void Node::closeBag()
+{
+  if (!bag_)
+    return;
+  if (isSettled() && now_ns_ > state_ns_)
+    publishState();
+  try
+  {
+    bag_->close();
+    ROS_INFO_STREAM("recorded " << bag_->path());
+  }
+  catch (const std::runtime_error& error)
+  {
+    ROS_ERROR_STREAM(error.what());
   }
 }
 
@@ -179,7 +204,7 @@ void Node::advanceWorld(std::int64_t goal, std::int64_t deadline)
 void Node::setPaused(bool paused)
 {
   paused_ = paused;
-  publishers_.setPaused(paused);
+  publishers_.setPaused(paused, now_ns_);
   pacer_.anchor(now_ns_, time_.now());
   diagnostics_.restart(now_ns_, steadyNow());
 }
@@ -215,6 +240,11 @@ void Node::publishDue()
     publishers_.publishOverlay(now_ns_);
     overlay_changed_ = false;
     overlay_sent_ = now;
+  }
+  if (bag_ && !bag_->error().empty() && !bag_failed_)
+  {
+    bag_failed_ = true;
+    ROS_ERROR_STREAM(bag_->error() << "; from here on nothing is recorded");
   }
   if (diagnostics_.isDue(now))
     publishDiagnostics(now);

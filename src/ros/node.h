@@ -56,6 +56,7 @@ private:
   void publishDue();
   void publishDiagnostics(std::int64_t now);
   void tellNotes();
+  void closeBag();
 
   // node_commands.cpp: topics and services
   void subscribe();
@@ -76,10 +77,14 @@ private:
   bool onLoadScene(msg::LoadScene::Request& request, msg::LoadScene::Response& response);
   bool onSetState(msg::SetState::Request& request, msg::SetState::Response& response);
   bool onSpawnBlock(msg::SpawnBlock::Request& request, msg::SpawnBlock::Response& response);
+  bool onSaveState(msg::SaveState::Request& request, msg::SaveState::Response& response);
+  bool onRestoreState(msg::RestoreState::Request& request, msg::RestoreState::Response& response);
   bool onDeleteBlock(msg::DeleteBlock::Request& request, msg::DeleteBlock::Response& response);
   std::string makeReady();
   std::string applyNow(const Command& command);
   std::string replaceWorld(const SceneSource& source, const std::optional<int>& count, const SetCommand& set);
+  void showNewWorld();
+  std::string restore(const std::string& path);
   template <class Response>
   bool answer(const char* done, const std::string& reason, Response& response) const;
   BlockWorldConfig liveValues() const;
@@ -94,6 +99,7 @@ private:
   SceneSource source_;
   World world_;
   TimeBase time_;
+  std::unique_ptr<BagWriter> bag_;
   Publishers publishers_;
   Warnings warnings_;
   Pacer pacer_;
@@ -108,6 +114,7 @@ private:
   bool overlay_changed_ = true;
   bool blocks_changed_ = false;  ///< some were spawned or deleted since the scene was loaded
   std::size_t notes_told_ = 0;
+  bool bag_failed_ = false;
   std::vector<Pending> pending_;
 
   std::vector<ros::Subscriber> subscribers_;

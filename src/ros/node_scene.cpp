@@ -6,6 +6,7 @@
 #include "block_world/scene_yaml.h"
 #include "conversions.h"
 #include "node.h"
+#include "saved_state.h"
 #include "topics.h"
 
 namespace block_world
@@ -57,7 +58,9 @@ void Node::serveScene()
          handle_.advertiseService(topics::LOAD_SCENE, &Node::onLoadScene, this),
          handle_.advertiseService(topics::SET_STATE, &Node::onSetState, this),
          handle_.advertiseService(topics::SPAWN_BLOCK, &Node::onSpawnBlock, this),
-         handle_.advertiseService(topics::DELETE_BLOCK, &Node::onDeleteBlock, this) })
+         handle_.advertiseService(topics::DELETE_BLOCK, &Node::onDeleteBlock, this),
+         handle_.advertiseService(topics::SAVE_STATE, &Node::onSaveState, this),
+         handle_.advertiseService(topics::RESTORE_STATE, &Node::onRestoreState, this) })
     services_.push_back(service);
   live_ = std::make_unique<LiveParameters>(handle_, liveValues(),
                                            [this](BlockWorldConfig& values) { onLiveChange(values); });
@@ -107,10 +110,43 @@ std::string Node::replaceWorld(const SceneSource& source, const std::optional<in
   blocks_changed_ = false;
   tellNotes();
   publishers_.publishScene(now_ns_);
+  showNewWorld();
+  return std::string();
+}
+
+void Node::showNewWorld()
+{
   publishState();
   // Loading has taken its time, which is not to be caught up with.
   if (!time_.follows())
     pacer_.anchor(now_ns_, time_.now());
+}
+
+/// A saved world in the place of this one; returns why not, or nothing.
+std::string Node::restore(const std::string& path)
+{
+  std::string reason = makeReady();
+  if (!reason.empty())
+    return reason;
+  try
+  {
+    const std::string saved = readFile(path);
+    RestoredWorld restored = restoreNotBefore(saved, now_ns_);
+    if (now_ns_ > state_ns_)
+      publishState();
+    world_ = std::move(restored.world);
+    now_ns_ = restored.time_ns;
+    publishers_.publishRestored(saved, now_ns_);
+  }
+  catch (const std::runtime_error& error)
+  {
+    return path + ": " + error.what();
+  }
+  // The scene from which the state comes, in case that another number of its blocks is asked for.
+  source_ = { path, writeScene(world_.scene()), std::nullopt };
+  notes_told_ = world_.notes().size();
+  blocks_changed_ = true;
+  showNewWorld();
   return std::string();
 }
 
@@ -129,7 +165,7 @@ bool Node::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& res
   {
     publishers_.forgetImpulses();
     if (blocks_changed_)
-      publishers_.publishBlocks();
+      publishers_.publishBlocks(now_ns_);
     blocks_changed_ = false;
     shareLiveValues();
   }
@@ -174,10 +210,33 @@ bool Node::onSpawnBlock(msg::SpawnBlock::Request& request, msg::SpawnBlock::Resp
   if (reason.empty())
   {
     blocks_changed_ = true;
-    publishers_.publishBlocks();
+    publishers_.publishBlocks(now_ns_);
     shareLiveValues();
   }
   return answer("spawned", reason, response);
+}
+
+bool Node::onSaveState(msg::SaveState::Request& request, msg::SaveState::Response& response)
+{
+  std::string reason = makeReady();
+  try
+  {
+    if (reason.empty())
+      writeFile(request.path, world_.save());
+  }
+  catch (const std::runtime_error& error)
+  {
+    reason = request.path + ": " + error.what();
+  }
+  return answer("saved", reason, response);
+}
+
+bool Node::onRestoreState(msg::RestoreState::Request& request, msg::RestoreState::Response& response)
+{
+  const std::string reason = restore(request.path);
+  if (reason.empty())
+    shareLiveValues();
+  return answer("restored", reason, response);
 }
 
 bool Node::onDeleteBlock(msg::DeleteBlock::Request& request, msg::DeleteBlock::Response& response)
@@ -186,7 +245,7 @@ bool Node::onDeleteBlock(msg::DeleteBlock::Request& request, msg::DeleteBlock::R
   if (reason.empty())
   {
     blocks_changed_ = true;
-    publishers_.publishBlocks();
+    publishers_.publishBlocks(now_ns_);
     shareLiveValues();
   }
   return answer("deleted", reason, response);

@@ -151,6 +151,7 @@ Parameters readParameters(const ros::NodeHandle& handle)
   reader.read("publish_clock", parameters.publish_clock);
   reader.read("frame_id", parameters.frame_id);
   reader.read("tf_prefix", parameters.tf_prefix);
+  reader.read("record", parameters.record);
 
   if (parameters.scene.empty())
     parameters.scene = defaultScene();
@@ -166,7 +167,8 @@ std::vector<std::string> unknownParameters(const ros::NodeHandle& handle)
   static const std::set<std::string> KNOWN = { "scene",           "gravity",       "elasticity",       "damping",
                                                "thrust",          "mass",          "tolerance",        "count",
                                                "mouse_stiffness", "mouse_damping", "real_time_factor", "publish_rate",
-                                               "paused",          "publish_clock", "frame_id",         "tf_prefix" };
+                                               "paused",          "publish_clock", "frame_id",         "tf_prefix",
+                                               "record" };
   std::vector<std::string> names, unknown;
   handle.getParamNames(names);
   const std::string own = handle.getNamespace() + "/";

@@ -33,6 +33,7 @@ struct Parameters
   bool publish_clock = true;
   std::string frame_id = "world";
   std::string tf_prefix;
+  std::string record;  ///< path of a bag file to write; empty = none
 };
 
 /// Reads and checks all; throws ParameterError.

@@ -1,8 +1,5 @@
 #include "publishers.h"
 
-#include <std_msgs/Bool.h>
-#include <std_msgs/String.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -18,23 +15,22 @@ namespace
 constexpr int STATE_QUEUE = 1000, INPUT_QUEUE = 10000, DISPLAY_QUEUE = 1;
 }  // namespace
 
-Publishers::Publishers(ros::NodeHandle& handle, const World& world, const std::string& frame_id,
+Publishers::Publishers(const Outlets& outlets, const World& world, const std::string& frame_id,
                        const std::string& tf_prefix)
   : world_(world), overlay_(world), frame_id_(frame_id), tf_prefix_(tf_prefix)
 {
   const auto bind = [this](void (Publishers::*greet)(const ros::SingleSubscriberPublisher&)) {
     return [this, greet](const ros::SingleSubscriberPublisher& subscriber) { (this->*greet)(subscriber); };
   };
-  transforms_ = handle.advertise<tf2_msgs::TFMessage>("/tf", STATE_QUEUE, bind(&Publishers::onTransformSubscriber));
-  bodies_ = handle.advertise<msg::BodyStates>(topics::BODIES, STATE_QUEUE, bind(&Publishers::onBodiesSubscriber));
-  energy_ = handle.advertise<msg::Energy>(topics::ENERGY, STATE_QUEUE, bind(&Publishers::onEnergySubscriber));
-  contacts_ = handle.advertise<msg::Contacts>(topics::CONTACTS, STATE_QUEUE);
-  inputs_ = handle.advertise<msg::Input>(topics::INPUTS, INPUT_QUEUE, bind(&Publishers::onInputsSubscriber));
-  overlays_ = handle.advertise<visualization_msgs::MarkerArray>(topics::OVERLAY, DISPLAY_QUEUE,
-                                                                bind(&Publishers::onOverlaySubscriber));
-  markers_ = handle.advertise<visualization_msgs::MarkerArray>(topics::MARKERS, DISPLAY_QUEUE, true);
-  scene_ = handle.advertise<std_msgs::String>(topics::SCENE, DISPLAY_QUEUE, true);
-  paused_flag_ = handle.advertise<std_msgs::Bool>(topics::PAUSED, DISPLAY_QUEUE, true);
+  transforms_.open(outlets, "/tf", STATE_QUEUE, bind(&Publishers::onTransformSubscriber));
+  bodies_.open(outlets, topics::BODIES, STATE_QUEUE, bind(&Publishers::onBodiesSubscriber));
+  energy_.open(outlets, topics::ENERGY, STATE_QUEUE, bind(&Publishers::onEnergySubscriber));
+  contacts_.open(outlets, topics::CONTACTS, STATE_QUEUE);
+  inputs_.open(outlets, topics::INPUTS, INPUT_QUEUE, bind(&Publishers::onInputsSubscriber));
+  overlays_.open(outlets, topics::OVERLAY, DISPLAY_QUEUE, bind(&Publishers::onOverlaySubscriber));
+  markers_.openLatched(outlets, topics::MARKERS, DISPLAY_QUEUE);
+  scene_.openLatched(outlets, topics::SCENE, DISPLAY_QUEUE);
+  paused_flag_.openLatched(outlets, topics::PAUSED, DISPLAY_QUEUE);
 }
 
 void Publishers::setOrigin(std::int64_t origin_ns)
@@ -42,12 +38,12 @@ void Publishers::setOrigin(std::int64_t origin_ns)
   origin_ns_ = origin_ns;
 }
 
-void Publishers::setPaused(bool paused)
+void Publishers::setPaused(bool paused, std::int64_t now_ns)
 {
   paused_ = paused;
   std_msgs::Bool flag;
   flag.data = paused;
-  paused_flag_.publish(flag);
+  paused_flag_.send(flag, stamp(origin_ns_, now_ns));
 }
 
 std_msgs::Header Publishers::header(std::int64_t now_ns) const
@@ -60,23 +56,42 @@ std_msgs::Header Publishers::header(std::int64_t now_ns) const
 
 void Publishers::publishScene(std::int64_t now_ns)
 {
-  load_input_ = msg::Input();
-  load_input_.kind = msg::Input::LOAD_SCENE;
-  load_input_.text = writeScene(world_.scene());
-  load_input_.header = header(now_ns);
-  load_input_.time_ns = now_ns;
-  load_input_.index = input_index_++;
-  inputs_.publish(load_input_);
-  publishBlocks();
+  msg::Input input;
+  input.kind = msg::Input::LOAD_SCENE;
+  input.text = writeScene(world_.scene());
+  publishWorld(input, now_ns);
 }
 
-void Publishers::publishBlocks()
+void Publishers::publishRestored(const std::string& saved, std::int64_t now_ns)
+{
+  msg::Input input;
+  input.kind = msg::Input::RESTORE;
+  input.data.assign(saved.begin(), saved.end());
+  publishWorld(input, now_ns);
+}
+
+void Publishers::publishWorld(const msg::Input& input, std::int64_t now_ns)
+{
+  world_input_ = input;
+  log(world_input_, now_ns);
+  publishBlocks(now_ns);
+}
+
+void Publishers::log(msg::Input& input, std::int64_t now_ns)
+{
+  input.header = header(now_ns);
+  input.time_ns = now_ns;
+  input.index = input_index_++;
+  inputs_.send(input, input.header.stamp);
+}
+
+void Publishers::publishBlocks(std::int64_t now_ns)
 {
   std_msgs::String text;
   text.data = writeScene(world_.scene());
-  scene_.publish(text);
+  scene_.send(text, stamp(origin_ns_, now_ns));
   overlay_ = Overlay(world_);
-  markers_.publish(sceneMarkers(world_, frame_id_, tf_prefix_));
+  markers_.send(sceneMarkers(world_, frame_id_, tf_prefix_), stamp(origin_ns_, now_ns));
 }
 
 void Publishers::publishState(std::int64_t now_ns, std::vector<ContactEvent> contacts)
@@ -85,22 +100,23 @@ void Publishers::publishState(std::int64_t now_ns, std::vector<ContactEvent> con
   started_ = true;
   overlay_.remember(contacts);
   publishTransforms(now_ns);
-  if (bodies_.getNumSubscribers() > 0)
-    bodies_.publish(states(now_ns));
-  if (energy_.getNumSubscribers() > 0)
+  const ros::Time time = stamp(origin_ns_, now_ns);
+  if (bodies_.isWanted())
+    bodies_.send(states(now_ns), time);
+  if (energy_.isWanted())
   {
     msg::Energy message = energy(world_);
     message.header = header(now_ns);
-    energy_.publish(message);
+    energy_.send(message, time);
   }
-  if (contacts_.getNumSubscribers() > 0)
+  if (contacts_.isWanted())
     publishContacts(now_ns, contacts);
 }
 
 void Publishers::publishOverlay(std::int64_t now_ns)
 {
-  if (overlays_.getNumSubscribers() > 0)
-    overlays_.publish(overlay_.markers(world_, header(now_ns)));
+  if (overlays_.isWanted())
+    overlays_.send(overlay_.markers(world_, header(now_ns)), stamp(origin_ns_, now_ns));
 }
 
 void Publishers::forgetImpulses()
@@ -111,17 +127,16 @@ void Publishers::forgetImpulses()
 void Publishers::publishInput(const Command& command, std::int64_t now_ns, bool from_scene)
 {
   msg::Input input = toInput(command);
-  input.header = header(now_ns);
-  input.time_ns = now_ns;
-  input.index = input_index_++;
   input.from_scene = from_scene;
-  inputs_.publish(input);
+  log(input, now_ns);
 }
 
 msg::BodyStates Publishers::states(std::int64_t now_ns) const
 {
   msg::BodyStates message = bodyStates(world_);
   message.header = header(now_ns);
+  message.time_ns = now_ns;
+  message.inputs = input_index_;
   return message;
 }
 
@@ -145,8 +160,8 @@ void Publishers::publishTransforms(std::int64_t now_ns)
   // tf2 ignores a second transform with the same stamp, so a state that has changed while time stands still (a reset in
   // a paused world) is stamped a nanosecond later.
   transform_stamp_ = std::max(stamp(origin_ns_, now_ns), transform_stamp_ + ros::Duration(0, 1));
-  if (transforms_.getNumSubscribers() > 0)
-    transforms_.publish(transforms());
+  if (transforms_.isWanted())
+    transforms_.send(transforms(), transform_stamp_);
 }
 
 void Publishers::publishContacts(std::int64_t now_ns, const std::vector<ContactEvent>& contacts)
@@ -159,7 +174,7 @@ void Publishers::publishContacts(std::int64_t now_ns, const std::vector<ContactE
   if (message.contacts.empty())
     return;
   message.header = header(now_ns);
-  contacts_.publish(message);
+  contacts_.send(message, message.header.stamp);
 }
 
 void Publishers::onTransformSubscriber(const ros::SingleSubscriberPublisher& subscriber)
@@ -193,7 +208,7 @@ void Publishers::onOverlaySubscriber(const ros::SingleSubscriberPublisher& subsc
 void Publishers::onInputsSubscriber(const ros::SingleSubscriberPublisher& subscriber)
 {
   if (started_)
-    subscriber.publish(load_input_);
+    subscriber.publish(world_input_);
 }
 
 }  // namespace block_world

@@ -1,7 +1,10 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <std_msgs/Bool.h>
+#include <std_msgs/String.h>
 #include <tf2_msgs/TFMessage.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <cstdint>
 #include <string>
@@ -10,23 +13,27 @@
 #include "block_world/world.h"
 #include "markers.h"
 #include "messages.h"
+#include "outlet.h"
 
 namespace block_world
 {
-/// Everything the node sends but /clock. Who subscribes while the world is paused gets the current state at once.
+/// Everything the node sends but /clock and /diagnostics, to subscribers, into a bag, or to both. Who subscribes while the
+/// world is paused gets the current state at once.
 class Publishers
 {
 public:
   /// stamp = origin + simulated time.
-  Publishers(ros::NodeHandle& handle, const World& world, const std::string& frame_id, const std::string& tf_prefix);
+  Publishers(const Outlets& outlets, const World& world, const std::string& frame_id, const std::string& tf_prefix);
 
   void setOrigin(std::int64_t origin_ns);
-  void setPaused(bool paused);
+  void setPaused(bool paused, std::int64_t now_ns);
 
   /// A scene was loaded: logs it as an input, and publishes its blocks.
   void publishScene(std::int64_t now_ns);
+  /// The same of a state that was restored.
+  void publishRestored(const std::string& saved, std::int64_t now_ns);
   /// Scene text and shapes, where blocks have come or gone.
-  void publishBlocks();
+  void publishBlocks(std::int64_t now_ns);
 
   /// The state at now(), with the contacts since the last call.
   void publishState(std::int64_t now_ns, std::vector<ContactEvent> contacts);
@@ -39,6 +46,8 @@ public:
   msg::BodyStates states(std::int64_t now_ns) const;
 
 private:
+  void publishWorld(const msg::Input& input, std::int64_t now_ns);
+  void log(msg::Input& input, std::int64_t now_ns);
   std_msgs::Header header(std::int64_t now_ns) const;
   tf2_msgs::TFMessage transforms() const;
   void publishTransforms(std::int64_t now_ns);
@@ -59,9 +68,16 @@ private:
   bool paused_ = false;
   bool started_ = false;
   std::uint64_t input_index_ = 0;
-  msg::Input load_input_;
+  msg::Input world_input_;  ///< where the present world comes from
 
-  ros::Publisher transforms_, markers_, overlays_, bodies_, energy_, contacts_, inputs_, scene_, paused_flag_;
+  Outlet<tf2_msgs::TFMessage> transforms_;
+  Outlet<msg::BodyStates> bodies_;
+  Outlet<msg::Energy> energy_;
+  Outlet<msg::Contacts> contacts_;
+  Outlet<msg::Input> inputs_;
+  Outlet<std_msgs::String> scene_;
+  Outlet<std_msgs::Bool> paused_flag_;
+  Outlet<visualization_msgs::MarkerArray> markers_, overlays_;
 };
 
 }  // namespace block_world

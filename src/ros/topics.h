@@ -28,5 +28,7 @@ constexpr char LOAD_SCENE[] = "load_scene";
 constexpr char SET_STATE[] = "set_state";
 constexpr char SPAWN_BLOCK[] = "spawn_block";
 constexpr char DELETE_BLOCK[] = "delete_block";
+constexpr char SAVE_STATE[] = "save_state";
+constexpr char RESTORE_STATE[] = "restore_state";
 }  // namespace topics
 }  // namespace block_world

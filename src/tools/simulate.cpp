@@ -1,10 +1,8 @@
-// Runs a scene file as fast as it can and writes its states, energies and contacts as CSV files.
+// Runs a scene file as fast as it can and writes its states, energies and contacts as CSV files, and as a bag.
 
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -13,6 +11,8 @@
 
 #include "block_world/scene_yaml.h"
 #include "block_world/world.h"
+#include "progress.h"
+#include "simulate_bag.h"
 #include "simulate_options.h"
 #include "simulate_output.h"
 
@@ -49,37 +49,6 @@ private:
   std::int64_t start_ = 0, total_ = 0;
 };
 
-/// A line on the terminal that says how far the run is, renewed a few times per second.
-class Progress
-{
-public:
-  Progress() = default;
-  Progress(const Progress&) = delete;
-  ~Progress()
-  {
-    if (is_shown_)
-      std::fputs("\r\033[K", stderr);
-  }
-  void show(const World& world)
-  {
-    const std::chrono::duration<double> elapsed = Clock::now() - start_;
-    if (!is_terminal_ || elapsed.count() < next_)
-      return;
-    next_ = elapsed.count() + 0.2;
-    const double simulated = world.now().seconds();
-    std::fprintf(stderr, "\r%.3f s simulated, %lld events, %.3g x real time\033[K", simulated,
-                 static_cast<long long>(world.statistics().events), simulated / elapsed.count());
-    is_shown_ = true;
-  }
-
-private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-  double next_ = 0.2;
-  bool is_terminal_ = isatty(STDERR_FILENO) != 0;
-  bool is_shown_ = false;
-};
-
 /// Instant of a sample: the nearest whole nanosecond to number x period, at most the end of the run. Each is rounded by
 /// itself, so that sixtieths of a second do not drift.
 Time sampleTime(std::int64_t number, const SimulateOptions& options)
@@ -89,7 +58,7 @@ Time sampleTime(std::int64_t number, const SimulateOptions& options)
   return Time::fromNanoseconds(is_last ? options.duration : std::llround(exact));
 }
 
-Sample readSample(World& world, const Output& output)
+Sample readSample(const World& world, const Output& output, std::vector<ContactEvent> contacts)
 {
   Sample sample;
   sample.time = world.now();
@@ -98,7 +67,6 @@ Sample readSample(World& world, const Output& output)
     sample.states.push_back(world.state(body));
   if (output.wantsEnergy())
     sample.energy = world.energy();
-  std::vector<ContactEvent> contacts = world.takeContacts();
   if (output.wantsContacts())
   {
     sample.contacts = std::move(contacts);
@@ -119,7 +87,7 @@ void printSummary(const World& world, const CpuClock& cpu, double worst_overlap)
 }
 
 /// Advances from sample to sample to the end; returns the deepest overlap seen at a sample.
-double advance(World& world, const SimulateOptions& options, CpuClock& cpu, Output& output)
+double advance(World& world, const SimulateOptions& options, CpuClock& cpu, Output& output, BagOutput& bag)
 {
   Progress progress;
   double worst_overlap = 0.0;
@@ -127,14 +95,26 @@ double advance(World& world, const SimulateOptions& options, CpuClock& cpu, Outp
   for (std::int64_t number = 0;; ++number)
   {
     cpu.start();
-    world.advance(sampleTime(number, options));
-    const Sample sample = readSample(world, output);
+    std::vector<ContactEvent> contacts = bag.advance(sampleTime(number, options).nanoseconds());
+    const Sample sample = readSample(world, output, std::move(contacts));
     cpu.stop();
     output.write(world, sample);
     worst_overlap = std::max(worst_overlap, world.overlap());
     if (sample.time >= end || world.now() < sampleTime(number, options))
       return worst_overlap;
     progress.show(world);
+  }
+}
+
+BagOutput openBag(const std::string& path, World& world)
+{
+  try
+  {
+    return BagOutput(path, world);
+  }
+  catch (const std::runtime_error& error)
+  {
+    throw UsageError(error.what());
   }
 }
 
@@ -146,8 +126,10 @@ void run(Scene scene, const SimulateOptions& options, Output& output)
   cpu.stop();
   for (const std::string& note : world.notes())
     std::fprintf(stderr, "simulate: note: %s\n", note.c_str());
-  const double worst_overlap = advance(world, options, cpu, output);
+  BagOutput bag = openBag(options.bag, world);
+  const double worst_overlap = advance(world, options, cpu, output, bag);
   output.close();
+  bag.close();
   printSummary(world, cpu, worst_overlap);
   if (world.now() < Time::fromNanoseconds(options.duration))
     throw std::runtime_error(world.statistics().mode);

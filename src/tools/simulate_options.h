@@ -14,7 +14,7 @@ struct SimulateOptions
   std::int64_t duration = 0;             ///< ns
   double sample = 0.0;                   ///< s
   std::optional<double> tolerance;       ///< m, in place of the scene's
-  std::string states, energy, contacts;  ///< paths; states empty = standard output, others empty = not wanted
+  std::string states, energy, contacts, bag;  ///< paths; states empty = standard output, others empty = not wanted
 };
 
 /// A command line that cannot be followed.

@@ -377,28 +377,7 @@ TEST_F(NodeScene, inputsTellAllThatARunDependsOn)
     const msg::Input& input = inputs.messages[i];
     EXPECT_EQ(input.index, first.index + i);
     world.advance(Time::fromNanoseconds(input.time_ns));
-    Command command;
-    switch (input.kind)
-    {
-      case msg::Input::SET_STATE:
-        command = toCommand(input.state);
-        break;
-      case msg::Input::SPAWN:
-        command = SpawnCommand{ loadSceneText(input.text).blocks.at(0) };
-        break;
-      case msg::Input::DELETE:
-        command = DeleteCommand{ input.body };
-        break;
-      case msg::Input::THRUST:
-        command = toCommand(input.thrust);
-        break;
-      case msg::Input::RESET:
-        command = ResetCommand();
-        break;
-      default:
-        FAIL() << "kind " << static_cast<int>(input.kind);
-    }
-    const Applied applied = world.apply(command);
+    const Applied applied = world.apply(toCommand(input));
     EXPECT_TRUE(applied.ok) << applied.reason;
   }
   world.advance(Time::fromNanoseconds(static_cast<std::int64_t>(end.header.stamp.toNSec())));
