@@ -20,8 +20,8 @@ const std::vector<std::string> all_shipped{ "contact_forces", "cradle",      "dr
                                             "pi_collisions",  "pile",        "six_blocks", "springs",
                                             "stack",          "table_slide", "thrusters" };
 
-/// Everything at once: gravity, damping, a damped spring between blocks and one to the world, thrust that is still on, a wrench, a mouse spring
-/// that ends, timed inputs to come.
+/// Everything at once: gravity, damping, a damped spring between blocks and one to the world, thrust that is still on,
+/// a wrench, a mouse spring that ends, timed inputs to come.
 World makeBusy()
 {
   Scene scene = loadSceneFile(std::string(BLOCK_WORLD_DIR) + "/config/scenes/six_blocks.yaml", { 6, {} });
@@ -106,7 +106,8 @@ std::string refusal(const std::string& bytes)
   return std::string();
 }
 
-// In the middle of flights, slides, bounces, rests and heaps; the whole saved state at the end is compared, not the hash alone.
+// In the middle of flights, slides, bounces, rests and heaps; the whole saved state at the end is compared, not the
+// hash alone.
 TEST(Snapshot, GoesOnBitForBit)
 {
   for (const auto& make : makeWorlds())
@@ -154,8 +155,8 @@ TEST(Snapshot, InANewProcess)
     World world = make();
     world.advance(Time::fromSeconds(5.0));
     writeFile(path, world.save());
-    const std::string command =
-        "BLOCK_WORLD_STATE=" + path + " /proc/" + std::to_string(getpid()) + "/exe --gtest_filter=Snapshot.TheNewProcess >/dev/null";
+    const std::string command = "BLOCK_WORLD_STATE=" + path + " /proc/" + std::to_string(getpid()) +
+                                "/exe --gtest_filter=Snapshot.TheNewProcess >/dev/null";
     ASSERT_EQ(std::system(command.c_str()), 0);
     world.advance(Time::fromSeconds(10.0));
     EXPECT_EQ(readFile(path + ".end"), world.save()) << world.scene().name;
@@ -222,8 +223,9 @@ struct Acting
 
   Acting()
   {
-    scene = makeScene(9.8, 0.5, { moving(makeBox("a", Vector2d(1.0, 2.0), Vector2d(-2.0, 5.0), 0.1), Vector2d(0.1, 0.2), 0.3),
-                                  moving(makeBox("b", Vector2d(1.0, 2.0), Vector2d(2.0, 5.0), 0.1), Vector2d(0.1, 0.2), 0.3) },
+    scene = makeScene(9.8, 0.5,
+                      { moving(makeBox("a", Vector2d(1.0, 2.0), Vector2d(-2.0, 5.0), 0.1), Vector2d(0.1, 0.2), 0.3),
+                        moving(makeBox("b", Vector2d(1.0, 2.0), Vector2d(2.0, 5.0), 0.1), Vector2d(0.1, 0.2), 0.3) },
                       { -5.0, 5.0, 0.0, 10.0 });
     scene.damping = 0.25;
     scene.blocks[1].elasticity = 0.5;

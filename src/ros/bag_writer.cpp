@@ -10,7 +10,8 @@ namespace block_world
 {
 namespace
 {
-// Bytes; what is not yet in a complete chunk is lost where the program is killed. Some tenths of a second of six blocks.
+// Bytes; what is not yet in a complete chunk is lost where the program is killed. Some tenths of a second of six
+// blocks.
 constexpr std::uint32_t CHUNK = 128 * 1024;
 }  // namespace
 
@@ -45,8 +46,8 @@ boost::shared_ptr<ros::M_string> BagWriter::connection(const std::string& topic,
                                                        const char* definition, bool latched) const
 {
   const auto header = boost::make_shared<ros::M_string>();
-  *header = { { "topic", topic },    { "type", type },
-              { "md5sum", md5 },     { "message_definition", definition },
+  *header = { { "topic", topic },      { "type", type },
+              { "md5sum", md5 },       { "message_definition", definition },
               { "callerid", caller_ }, { "latching", latched ? "1" : "0" } };
   return header;
 }

@@ -9,8 +9,8 @@
 
 namespace block_world
 {
-/// A bag file that is being written. Like rosbag record it is called PATH.active until it is complete; if the program is
-/// killed before, rosbag reindex makes use of what was written.
+/// A bag file that is being written. Like rosbag record it is called PATH.active until it is complete; if the program
+/// is killed before, rosbag reindex makes use of what was written.
 class BagWriter
 {
 public:
@@ -29,8 +29,8 @@ public:
       return;
     boost::shared_ptr<ros::M_string>& header = headers_[topic];
     if (!header)
-      header = connection(topic, traits::datatype<Message>(), traits::md5sum<Message>(),
-                          traits::definition<Message>(), latched);
+      header = connection(topic, traits::datatype<Message>(), traits::md5sum<Message>(), traits::definition<Message>(),
+                          latched);
     try
     {
       bag_.write(topic, time, message, header);

@@ -18,8 +18,9 @@ Eigen::Vector2d toVector(const geometry_msgs::Point& point)
 }
 
 const std::pair<const char*, std::optional<double> SetCommand::*> PARAMETERS[] = {
-  { "gravity", &SetCommand::gravity }, { "elasticity", &SetCommand::elasticity }, { "damping", &SetCommand::damping },
-  { "thrust", &SetCommand::thrust },   { "mass", &SetCommand::mass },
+  { "gravity", &SetCommand::gravity }, { "elasticity", &SetCommand::elasticity },
+  { "damping", &SetCommand::damping }, { "thrust", &SetCommand::thrust },
+  { "mass", &SetCommand::mass },
 };
 
 /// Fills in the payload of an Input, one overload per command.

@@ -17,8 +17,8 @@
 
 namespace block_world
 {
-/// Everything the node sends but /clock and /diagnostics, to subscribers, into a bag, or to both. Who subscribes while the
-/// world is paused gets the current state at once.
+/// Everything the node sends but /clock and /diagnostics, to subscribers, into a bag, or to both. Who subscribes while
+/// the world is paused gets the current state at once.
 class Publishers
 {
 public:

@@ -67,8 +67,7 @@ std::string describe(const msg::Input& input)
 {
   static const char* const KINDS[] = { "THRUST", "SPRING", "WRENCH", "SET",        "SET_STATE",
                                        "SPAWN",  "DELETE", "RESET",  "LOAD_SCENE", "RESTORE" };
-  const std::string kind =
-      input.kind < std::size(KINDS) ? KINDS[input.kind] : "of kind " + std::to_string(input.kind);
+  const std::string kind = input.kind < std::size(KINDS) ? KINDS[input.kind] : "of kind " + std::to_string(input.kind);
   return "input " + std::to_string(input.index) + " (" + kind + (input.from_scene ? ", the scene's" : "") + ") at " +
          secondsOf(input.time_ns);
 }
@@ -246,8 +245,8 @@ std::string Replay::differences(const msg::BodyStates& logged)
              own.bodies[i].name + " here";
     for (const auto& [name, member] : FIELDS)
       if (!same(own.bodies[i].*member, logged.bodies[i].*member))
-        return where + own.bodies[i].name + "." + name + " is " + digits(logged.bodies[i].*member) +
-               " in the bag, " + digits(own.bodies[i].*member) + " here";
+        return where + own.bodies[i].name + "." + name + " is " + digits(logged.bodies[i].*member) + " in the bag, " +
+               digits(own.bodies[i].*member) + " here";
   }
   return where + "state_hash is " + std::to_string(logged.state_hash) + " in the bag, " +
          std::to_string(own.state_hash) + " here: all blocks move alike, but a force in force or a parameter differs";

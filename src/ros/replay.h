@@ -13,7 +13,8 @@
 
 namespace block_world
 {
-/// A logged run, run again: every command at its time, in the order of the log, and every state compared with the logged one.
+/// A logged run, run again: every command at its time, in the order of the log, and every state compared with the
+/// logged one.
 ///
 /// A state tells how many commands had acted by then. So where commands and states share one instant, each state is
 /// compared after exactly those that the node had applied when it sent it.

@@ -35,7 +35,8 @@ po::options_description describeOptions(SimulateOptions& options, double& durati
   add("states", po::value(&options.states)->value_name("FILE"), "states as CSV, by default to standard output");
   add("energy", po::value(&options.energy)->value_name("FILE"), "energies as CSV");
   add("contacts", po::value(&options.contacts)->value_name("FILE"), "impacts and resting contacts as CSV");
-  add("bag", po::value(&options.bag)->value_name("FILE.bag"), "the node's topics as a bag, for replay.launch and replay");
+  add("bag", po::value(&options.bag)->value_name("FILE.bag"),
+      "the node's topics as a bag, for replay.launch and replay");
   return description;
 }
 

@@ -11,9 +11,9 @@ namespace block_world
 struct SimulateOptions
 {
   std::string scene;
-  std::int64_t duration = 0;             ///< ns
-  double sample = 0.0;                   ///< s
-  std::optional<double> tolerance;       ///< m, in place of the scene's
+  std::int64_t duration = 0;                  ///< ns
+  double sample = 0.0;                        ///< s
+  std::optional<double> tolerance;            ///< m, in place of the scene's
   std::string states, energy, contacts, bag;  ///< paths; states empty = standard output, others empty = not wanted
 };
 

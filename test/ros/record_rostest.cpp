@@ -26,7 +26,8 @@ public:
     if (pid_ == 0)
     {
       setpgid(0, 0);
-      const std::string command = "exec roslaunch block_world block_world.launch rviz:=false " + arguments + " >/dev/null 2>&1";
+      const std::string command =
+          "exec roslaunch block_world block_world.launch rviz:=false " + arguments + " >/dev/null 2>&1";
       execl("/bin/sh", "sh", "-c", command.c_str(), nullptr);
       _exit(1);
     }
@@ -99,8 +100,7 @@ private:
   {
     switch (random_() % 4)
     {
-      case 0:
-      {
+      case 0: {
         msg::SpringForce spring;
         spring.active = random_() % 3 != 0;
         spring.anchor.x = between(-5, 5);
@@ -110,8 +110,7 @@ private:
         spring.duration = between(0, 0.3);
         return spring_.publish(spring);
       }
-      case 1:
-      {
+      case 1: {
         geometry_msgs::WrenchStamped wrench;
         wrench.header.frame_id = anyBlock();
         wrench.wrench.force.x = between(-1, 1);
@@ -119,8 +118,7 @@ private:
         wrench.wrench.torque.z = between(-1, 1);
         return wrench_.publish(wrench);
       }
-      default:
-      {
+      default: {
         msg::Thrust thrust;
         thrust.body = anyBlock();
         for (int i = 0; i < 6; ++i)
@@ -135,8 +133,7 @@ private:
     const std::string state = testing::TempDir() + "block_world_record.state";
     switch (which % 8)
     {
-      case 0:
-      {
+      case 0: {
         msg::SetState::Request request;
         request.state.name = anyBlock();
         request.state.x = between(-3, 3);
@@ -145,15 +142,13 @@ private:
         client_.call<msg::SetState>(topics::SET_STATE, request);  // may be refused
         break;
       }
-      case 1:
-      {
+      case 1: {
         msg::SpawnBlock::Request request;
         request.block = "{name: extra, size: [0.3, 0.2], pose: [" + std::to_string(between(-5, 5)) + ", 5.5, 0.1]}";
         client_.call<msg::SpawnBlock>(topics::SPAWN_BLOCK, request);
         break;
       }
-      case 2:
-      {
+      case 2: {
         dynamic_reconfigure::Reconfigure service;
         service.request.config.doubles.resize(1);
         service.request.config.doubles[0].name = random_() % 2 == 0 ? "gravity" : "damping";
@@ -161,15 +156,13 @@ private:
         EXPECT_TRUE(ros::service::call(client_.topic("set_parameters"), service));
         break;
       }
-      case 3:
-      {
+      case 3: {
         msg::SaveState::Request request;
         request.path = state;
         EXPECT_TRUE(client_.call<msg::SaveState>(topics::SAVE_STATE, request).success);
         break;
       }
-      case 4:
-      {
+      case 4: {
         msg::DeleteBlock::Request request;
         request.name = "extra";
         client_.call<msg::DeleteBlock>(topics::DELETE_BLOCK, request);
@@ -180,8 +173,7 @@ private:
         client_.advance(0.0123);
         client_.pause(false);
         break;
-      case 6:
-      {
+      case 6: {
         msg::RestoreState::Request request;
         request.path = state;
         EXPECT_TRUE(client_.call<msg::RestoreState>(topics::RESTORE_STATE, request).success);

@@ -91,7 +91,8 @@ protected:
         std::remove((file + end).c_str());
   }
 
-  /// Six blocks for 4 s, pushed at random by all kinds of commands; states at 60 Hz and some between commands of one instant.
+  /// Six blocks for 4 s, pushed at random by all kinds of commands; states at 60 Hz and some between commands of one
+  /// instant.
   std::string driven(const std::string& scene = "six_blocks")
   {
     const std::string bag = path("driven.bag");
@@ -105,14 +106,16 @@ protected:
       session.advance(k * 16666667ll - 5000001);
       const std::string block = "block" + std::to_string(1 + random() % 2);
       if (k % 3 == 0)
-        session.apply(ThrustCommand{ block, { share(0, 1), share(0, 1), share(0, 1), 0, share(0, 1), 0 }, share(0, 1) });
+        session.apply(
+            ThrustCommand{ block, { share(0, 1), share(0, 1), share(0, 1), 0, share(0, 1), 0 }, share(0, 1) });
       if (k % 7 == 0)
         session.apply(WrenchCommand{ block, Eigen::Vector2d(share(-1, 1), share(-1, 1)), share(-0.5, 0.5) });
       session.advance(k * 16666667ll);
       if (k % 11 == 0)
         session.publish();
       if (k % 11 == 0)
-        session.apply(SpringCommand{ true, "", {}, Eigen::Vector2d(share(-4, 4), share(-4, 4)), 5.0, 0.1, share(0, 1) });
+        session.apply(
+            SpringCommand{ true, "", {}, Eigen::Vector2d(share(-4, 4), share(-4, 4)), 5.0, 0.1, share(0, 1) });
       session.publish();
       if (k % 40 == 0)
         session.apply(SetCommand{ share(0, 5), share(0.5, 1), share(0, 0.1), {}, {} });
@@ -260,8 +263,10 @@ TEST_F(Replaying, WritesTheNewRun)
 TEST_F(Replaying, AnotherToleranceIsADeviation)
 {
   const std::string bag = path("pile.bag");
-  EXPECT_EQ(runCommand(std::string(BLOCK_WORLD_SIMULATE) + " " + BLOCK_WORLD_DIR + "/config/scenes/pile.yaml --duration 2 " +
-                       "--states /dev/null --bag " + bag).status, 0);
+  EXPECT_EQ(runCommand(std::string(BLOCK_WORLD_SIMULATE) + " " + BLOCK_WORLD_DIR +
+                       "/config/scenes/pile.yaml --duration 2 " + "--states /dev/null --bag " + bag)
+                .status,
+            0);
   const Outcome outcome = replay(bag, "--tolerance 1e-5");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   EXPECT_TRUE(has(outcome.text, "121 states compared, largest deviation")) << outcome.text;
@@ -270,7 +275,8 @@ TEST_F(Replaying, AnotherToleranceIsADeviation)
 TEST_F(Replaying, SimulateWritesWhatTheNodeWould)
 {
   const std::string bag = path("simulated.bag");
-  const std::string simulate = std::string(BLOCK_WORLD_SIMULATE) + " " + BLOCK_WORLD_DIR + "/config/scenes/thrusters.yaml " +
+  const std::string simulate = std::string(BLOCK_WORLD_SIMULATE) + " " + BLOCK_WORLD_DIR +
+                               "/config/scenes/thrusters.yaml " +
                                "--duration 3 --sample 0.07 --states /dev/null --bag ";
   EXPECT_EQ(runCommand(simulate + bag).status, 0);
   const Outcome outcome = replay(bag);
@@ -342,7 +348,8 @@ TEST_F(Replaying, TruncatedBag)
 TEST_F(Replaying, WithoutScene)
 {
   const std::string bag = driven(), without = path("without.bag");
-  copyBag(bag, without, [](msg::Input& input) { return input.kind != msg::Input::LOAD_SCENE && input.kind != msg::Input::RESTORE; });
+  copyBag(bag, without,
+          [](msg::Input& input) { return input.kind != msg::Input::LOAD_SCENE && input.kind != msg::Input::RESTORE; });
   EXPECT_EQ(replay(without).status, 2);
   EXPECT_TRUE(has(replay(without).text, "no scene"));
   copyBag(bag, without, [](msg::Input&) { return false; });
