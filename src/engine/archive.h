@@ -26,7 +26,7 @@ inline std::uint64_t fnv1a(const void* data, std::size_t size, std::uint64_t has
 }
 
 /// An archive goes through a value part by part: archive(a, b, ...) calls exchange(archive, part) for each, which goes on to the parts of the
-/// part. The same function lists them for writing, reading and hashing.
+/// part. The same function lists them for writing, reading and hashing. Instants go through time(), spans of time through span().
 template <class Derived>
 class Archive
 {
@@ -46,11 +46,15 @@ public:
   {
     bytes.append(static_cast<const char*>(data), size);
   }
-  void time(Time& time)
+  void span(Time& time)
   {
     std::int64_t second = time.wholeSeconds();
     double fraction = time.fraction();
     (*this)(second, fraction);
+  }
+  void time(Time& time)
+  {
+    span(time);
   }
   template <class Container>
   void resize(Container& container)
@@ -77,14 +81,19 @@ public:
     data_ += size;
     left_ -= size;
   }
-  void time(Time& time)
+  void span(Time& time)
   {
     std::int64_t second;
     double fraction;
     (*this)(second, fraction);
     // Sums of whole numbers and of a fraction with zero: exact.
     const bool infinite = second == Time::infinity().wholeSeconds();
-    time = infinite ? Time::infinity() : Time() + static_cast<double>(second + seconds_later_) + fraction;
+    time = infinite ? Time::infinity() : Time() + static_cast<double>(second) + fraction;
+  }
+  void time(Time& time)
+  {
+    span(time);
+    time = time + static_cast<double>(seconds_later_);
   }
   template <class Container>
   void resize(Container& container)
@@ -116,6 +125,12 @@ public:
   void raw(void* data, std::size_t size)
   {
     hash = fnv1a(data, size, hash);
+  }
+  void span(Time& time)
+  {
+    std::int64_t second = time.wholeSeconds();
+    double fraction = time.fraction();
+    (*this)(second, fraction);
   }
   void time(Time& time)
   {

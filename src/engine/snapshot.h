@@ -78,15 +78,13 @@ void exchange(A&, ResetCommand&)
 {
 }
 
-/// Its time counts from the start of the inputs: a span, which does not move with the origin of time.
+/// Its time counts from the start of the inputs and does not move with the origin of time.
 template <class A>
 void exchange(A& archive, TimedCommand& input)
 {
   auto& [time, command] = input;
-  std::int64_t second = time.wholeSeconds();
-  double fraction = time.fraction();
-  archive(second, fraction, command);
-  time = Time() + static_cast<double>(second) + fraction;
+  archive.span(time);
+  archive(command);
 }
 
 template <class A>

@@ -337,6 +337,54 @@ TEST_F(NodeScene, resetBringsBackTheSceneAsLoaded)
   EXPECT_EQ(scenes.messages[3].data, scenes.messages[0].data);
 }
 
+// Saved in a fall and in a heap; the hash covers positions and velocities of all blocks.
+TEST_F(NodeScene, aSavedStateGoesOnBitForBit)
+{
+  msg::SaveState::Request save;
+  save.path = testing::TempDir() + "block_world_node_scene.state";
+  msg::RestoreState::Request restore;
+  restore.path = save.path;
+  client.load(STACK);
+  ASSERT_TRUE(setState("high", 0.3, 6.0, 0.2, 0.5, 0.0, 2.0).success);
+  for (const double later : { 0.4, 1.3 })
+  {
+    client.advance(later);
+    ASSERT_TRUE(client.call<msg::SaveState>(topics::SAVE_STATE, save).success);
+    const std::int64_t saved_ns = client.state().time_ns;
+    client.advance(2.1);
+    const std::uint64_t hash = client.hash();
+    ASSERT_TRUE(remove("low").success);
+    const std::int64_t before_ns = client.state().time_ns;
+    const msg::RestoreState::Response restored = client.call<msg::RestoreState>(topics::RESTORE_STATE, restore);
+    ASSERT_TRUE(restored.success) << restored.message;
+    // Time has gone on, by less than a second, to the saved fraction of a second.
+    const std::int64_t now_ns = client.state().time_ns;
+    EXPECT_GE(now_ns, before_ns);
+    EXPECT_LT(now_ns, before_ns + 1000000000);
+    EXPECT_EQ((now_ns - saved_ns) % 1000000000, 0);
+    client.advance(2.1);
+    EXPECT_EQ(client.hash(), hash);
+  }
+}
+
+TEST_F(NodeScene, aStateThatCannotBeRestoredChangesNothing)
+{
+  client.advance(0.1);
+  const std::uint64_t hash = client.hash();
+  msg::RestoreState::Request restore;
+  for (const char* path : { "/no/such/file", "/proc/self/exe", "" })
+  {
+    restore.path = path;
+    const msg::RestoreState::Response answer = client.call<msg::RestoreState>(topics::RESTORE_STATE, restore);
+    EXPECT_FALSE(answer.success);
+    EXPECT_FALSE(answer.message.empty());
+  }
+  msg::SaveState::Request save;
+  save.path = "/no/such/folder/file";
+  EXPECT_FALSE(client.call<msg::SaveState>(topics::SAVE_STATE, save).success);
+  EXPECT_EQ(client.hash(), hash);
+}
+
 // What ~inputs tells of a session is enough to have it again, bit for bit, without the node.
 TEST_F(NodeScene, inputsTellAllThatARunDependsOn)
 {
