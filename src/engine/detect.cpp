@@ -70,6 +70,8 @@ double Detector::apart(const Body& a, const Snapshot& now_a, const Body& b, cons
 
 double Detector::within(const Body& body, const Snapshot& now, const Vec2& low, const Vec2& high, double horizon) const
 {
+  if (std::isinf(high.x()))
+    return horizon;
   const auto span = [&](double jerk_span) {
     const double slack = body.arc.jerk > 0.0 ? body.arc.jerk * jerk_span : 0.0;
     double first = horizon;

@@ -42,15 +42,17 @@ void Grid::configure(const std::vector<double>& radii, double shell)
   for (int shift : used)
     levels_.push_back({ std::ldexp(finest, shift), shift });
 
-  int count = 0;
+  int count = 0, used_bodies = 0;
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     if (!std::isfinite(radii[i]))
       continue;
+    ++used_bodies;
     homes_[i].level = static_cast<int>(std::lower_bound(used.begin(), used.end(), shifts[i]) - used.begin());
     homes_[i].first = count;
     count += static_cast<int>(levels_.size()) - homes_[i].level;
   }
+  alone_ = used_bodies < 2;
   entries_.assign(count, Entry());
   std::size_t buckets = 16;
   while (buckets < 2 * entries_.size())
@@ -140,6 +142,8 @@ void Grid::neighbours(int body, std::vector<int>& found) const
 
 Grid::Box Grid::keeps(int body) const
 {
+  if (alone_)
+    return { Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL) };
   const Cell& own = cell(body, homes_[body].level);
   const double size = levels_[own.level].size;
   const Vec2 corner(static_cast<double>(own.x) * size, static_cast<double>(own.y) * size);

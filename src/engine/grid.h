@@ -38,7 +38,7 @@ public:
   template <class A>
   void exchange(A& archive)
   {
-    archive(levels_, homes_, entries_, heads_);
+    archive(alone_, levels_, homes_, entries_, heads_);
   }
 
 private:
@@ -98,6 +98,7 @@ private:
   void link(int entry);
   void unlink(int entry);
 
+  bool alone_ = false;  ///< a single body has nobody to be near
   std::vector<Level> levels_;  ///< those that bodies live on, finest first
   std::vector<Home> homes_;
   std::vector<Entry> entries_;
