@@ -2,7 +2,7 @@
 """Parks block1 of a paused world with its own thrusters: a PD controller in lock-step with the simulation.
 
     roslaunch block_world block_world.launch count:=1 paused:=true
-    rosrun block_world park_block.py
+    rosrun block_world park_block.py    (or build/devel/lib/block_world/park_block.py)
 
 The service ~step carries the commands and answers with the state, so no clock but the simulated one plays a part: the
 same bits come out every time, however busy the computer is.

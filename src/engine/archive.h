@@ -115,11 +115,11 @@ private:
   std::int64_t seconds_later_;
 };
 
-/// Hashes the raw bits; instants relative to the whole seconds of now, so that two runs compare whenever they began.
+/// Hashes the raw bits; instants relative to the whole seconds of a start, so that two runs compare whenever they began.
 class Hasher : public Archive<Hasher>
 {
 public:
-  explicit Hasher(const Time& now) : second_(now.wholeSeconds())
+  explicit Hasher(const Time& start) : second_(start.wholeSeconds())
   {
   }
   void raw(void* data, std::size_t size)

@@ -104,7 +104,7 @@ void World::Engine::clearWorkspace()
 /// All states, forces in force, inputs to come and parameters that act on the motion; neither time nor what the run has cost.
 std::uint64_t World::Engine::stateHash() const
 {
-  Hasher hasher(now);
+  Hasher hasher(input_start_);
   Engine& self = const_cast<Engine&>(*this);  // a hasher changes nothing
   hasher(self.field_, self.scene.rotational_damping_ratio, self.scene.elasticity, self.scene.thrust, self.scene.tolerance,
          self.dissipative_, self.links_);
@@ -116,10 +116,7 @@ std::uint64_t World::Engine::stateHash() const
     hasher(state.position, state.angle, state.velocity, state.omega);
   }
   for (std::size_t i = next_input_; i < scene.inputs.size(); ++i)
-  {
-    double elapsed = now - input_start_;
-    hasher(elapsed, self.scene.inputs[i]);
-  }
+    hasher(self.scene.inputs[i]);
   return hasher.hash;
 }
 

@@ -46,7 +46,7 @@ private:
 msg::BodyStates park(const std::string& ns)
 {
   NodeClient client(ns + "/block_world");
-  const Outcome outcome = runCommand("ROS_NAMESPACE=/" + ns + " rosrun block_world park_block.py");
+  const Outcome outcome = runCommand("ROS_NAMESPACE=/" + ns + " $(dirname " + BLOCK_WORLD_NODE + ")/park_block.py");
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   return client.state();
 }
