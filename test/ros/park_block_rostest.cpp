@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
-#include <signal.h>
 
-#include <cmath>
+#include <algorithm>
+#include <atomic>
 #include <thread>
+#include <vector>
 
 #include "bags.h"
 #include "node_client.h"
@@ -21,26 +22,22 @@ public:
   Load()
   {
     for (unsigned i = 0; i < 2 * std::max(1u, std::thread::hardware_concurrency()); ++i)
-    {
-      const pid_t pid = fork();
-      if (pid == 0)
-        for (volatile unsigned spin = 0;; ++spin)
+      threads_.emplace_back([this] {
+        while (!end_)
         {
         }
-      pids_.push_back(pid);
-    }
+      });
   }
   ~Load()
   {
-    for (const pid_t pid : pids_)
-    {
-      kill(pid, SIGKILL);
-      waitpid(pid, nullptr, 0);
-    }
+    end_ = true;
+    for (std::thread& thread : threads_)
+      thread.join();
   }
 
 private:
-  std::vector<pid_t> pids_;
+  std::atomic<bool> end_{ false };
+  std::vector<std::thread> threads_;
 };
 
 msg::BodyStates park(const std::string& ns)

@@ -23,6 +23,7 @@ public:
   explicit Launch(const std::string& arguments)
   {
     pid_ = fork();
+    EXPECT_GE(pid_, 0);
     if (pid_ == 0)
     {
       setpgid(0, 0);
