@@ -208,7 +208,13 @@ std::string runCommands(const std::uint8_t* data, std::size_t size)
         return "advance() went too far";
     }
     else
-      wrong = applyOne(world, readCommand(bytes));
+    {
+      const Command command = readCommand(bytes);
+      wrong = applyOne(world, command);
+      if (std::holds_alternative<SetStateCommand>(command) || std::holds_alternative<SpawnCommand>(command) ||
+          std::holds_alternative<ResetCommand>(command))
+        invariants.place();
+    }
     if (wrong.empty())
       wrong = invariants.check(world);
   }
