@@ -43,7 +43,10 @@ private:
 msg::BodyStates park(const std::string& ns)
 {
   NodeClient client(ns + "/block_world");
-  const Outcome outcome = runCommand("ROS_NAMESPACE=/" + ns + " $(dirname " + BLOCK_WORLD_NODE + ")/park_block.py");
+  // As a user does: catkin gives tests the environment of the first configuration, when the messages' Python was not yet made.
+  const std::string set_up = std::string(". ") + BLOCK_WORLD_SETUP + "; ";
+  const std::string program = "$(dirname " + std::string(BLOCK_WORLD_NODE) + ")/park_block.py";
+  const Outcome outcome = runCommand(set_up + "ROS_NAMESPACE=/" + ns + " " + program);
   EXPECT_EQ(outcome.status, 0) << outcome.text;
   return client.state();
 }
