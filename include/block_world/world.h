@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "block_world/command.h"
+#include "block_world/cost.h"
 #include "block_world/scene.h"
 #include "block_world/time.h"
 
@@ -76,6 +77,7 @@ struct Statistics
   std::int64_t impacts = 0;      ///< pairs hit
   double worst_overlap = 0.0;    ///< m, deepest overlap met at any event
   std::string mode = "exact";    ///< anything else says which island was not simulated exactly, and why
+  bool stalled = false;          ///< time stands still: see World::stallAfter
 };
 
 /// Rigid convex blocks in the plane, simulated without a time step.
@@ -96,8 +98,13 @@ public:
   Time now() const;
 
   /// Advances to target (not before now()), or until max_events promises have been kept (negative: no limit).
-  /// Returns now(), which is earlier than target only where the limit was reached, or where statistics().mode says that the world stalled.
+  /// Returns now(), which is earlier than target only where the limit was reached, or where the world stalled.
   Time advance(Time target, std::int64_t max_events = -1);
+
+  /// A world stalls where a block takes part in as many events as this within 1e-12 s of simulated time, 100000 unless told otherwise: hits
+  /// come at least a rounding of time apart, some 1e-16 s, so that no true course has as many. Then time stands still, statistics().mode tells
+  /// where and why, and nothing is left out; a command that changes the course lets the world try again.
+  void stallAfter(std::int64_t events);
 
   /// Applies a command at now(). A refused command changes nothing.
   Applied apply(const Command& command);
@@ -133,6 +140,10 @@ public:
   /// FNV-1a over the raw bits of all states, of the forces in force, of the timed inputs to come and of all parameters that act on the motion.
   std::uint64_t stateHash() const;
   const Statistics& statistics() const;
+  /// What was done with a block since the world was made; resets do not set it back. CostMeter tells where most of it is done.
+  const Cost& cost(int body) const;
+  /// The blocks that move as one with a block now, itself included: joined by touches that carry force or by springs. Ascending.
+  std::vector<int> island(int body) const;
 
   /// The whole state as bytes, with a version and a checksum: what restore makes of it goes on bit for bit as this one does. Left out is what
   /// waits to be taken (takeContacts, takeInputs).

@@ -62,6 +62,12 @@ struct Body
   int island = -1;         ///< lowest index among the bodies that move as one with this one
   std::vector<int> pairs;  ///< pairs that this body is one of
 
+  Cost cost;
+  /// To notice time standing still: events since an instant, and what it had cost then.
+  std::int64_t crowd = 0;
+  Time crowd_start;
+  Cost crowd_cost;
+
   bool pushed() const
   {
     return push.x() != 0.0 || push.y() != 0.0 || twist != 0.0;

@@ -55,6 +55,7 @@ void World::Engine::release(Body& body, const Time& time)
 /// A timed command of a body ends.
 void World::Engine::expire(int body, const Time& time)
 {
+  kind_ = CostKind::Command;
   // The work done until now belongs to the forces that did it.
   Body& b = bodies[body];
   closeIsland(body, time);
@@ -488,7 +489,10 @@ Applied World::Engine::applyAt(const Command& command, const Time& time, bool ch
 {
   Handler handler{ *this, time, check_only, {} };
   handler.result.command = command;
+  kind_ = CostKind::Command;
   std::visit(handler, command);
+  if (handler.result.ok && !check_only)
+    tryAgain();
   return handler.result;
 }
 

@@ -57,7 +57,8 @@ void World::Engine::build()
 
 void World::Engine::buildBodies()
 {
-  bodies.clear();
+  std::vector<Body> formers;
+  formers.swap(bodies);
   double largest = 0.0;
   for (const Block& block : scene.blocks)
   {
@@ -74,6 +75,10 @@ void World::Engine::buildBodies()
       body.thrusters = block.thrusters ? *block.thrusters : defaultThrusters(block.vertices, scene.thrust);
       body.levels.assign(body.thrusters.size(), 0.0);
     }
+    for (const Body& former : formers)
+      if (former.name == body.name)
+        body.crowd_cost = body.cost = former.cost;
+    body.crowd_start = now;
     body.elasticity = block.elasticity.value_or(scene.elasticity);
     body.arc.x[0] = block.position.x();
     body.arc.y[0] = block.position.y();
@@ -102,8 +107,8 @@ void World::Engine::buildBodies()
 /// Sets the scene's states in motion at now, and begins a new account there.
 void World::Engine::start()
 {
-  crowd_ = 0;
-  statistics.mode = "exact";
+  kind_ = CostKind::Command;
+  tryAgain();
   for (int i = 0; i < block_count; ++i)
   {
     Body& body = bodies[i];
@@ -150,12 +155,10 @@ Time World::Engine::advance(Time target, std::int64_t max_events)
   std::int64_t kept = 0;
   while (promises_.firstTime() <= target)
   {
-    if (max_events >= 0 && kept++ >= max_events)
+    if (statistics.stalled || (max_events >= 0 && kept++ >= max_events))
       return now;
     const int slot = promises_.first();
     const Time time = promises_.firstTime();
-    if (stalls(time, slot))
-      return now;
     if (time > now)
       now = time;
     ++statistics.events;
@@ -163,24 +166,6 @@ Time World::Engine::advance(Time target, std::int64_t max_events)
   }
   now = target;
   return now;
-}
-
-/// Whether events pile up without time going on: more than can be the true course of a scene. Says so in the mode; time then stands still.
-bool World::Engine::stalls(const Time& time, int slot)
-{
-  constexpr std::int64_t kMost = 100000;
-  constexpr double kSpan = 1e-12;  // s
-  if (time - crowd_start_ > kSpan)
-  {
-    crowd_start_ = time;
-    crowd_ = 0;
-  }
-  if (++crowd_ < kMost)
-    return false;
-  const int count = static_cast<int>(bodies.size());
-  const int body = slot == 0 ? 0 : slot < pairSlot(0) ? (slot - 1) % count : pairs_[slot - pairSlot(0)].a;
-  statistics.mode = "stalled at '" + bodies[body].name + "', more than 100000 events within 1e-12 s";
-  return true;
 }
 
 /// A promise came due.
@@ -194,6 +179,7 @@ void World::Engine::keep(int slot, const Time& time)
   else if (slot < 1 + 2 * count)
   {
     const int island = slot - 1 - count;
+    kind_ = time < bodies[island].arc.end ? CostKind::Contact : CostKind::Arc;
     if (islands_[island].rests.empty())
       continueIsland(island, time);
     else
@@ -203,16 +189,24 @@ void World::Engine::keep(int slot, const Time& time)
     }
   }
   else if (slot < pairSlot(0))
+  {
+    kind_ = CostKind::Cell;
+    chargeEvent(slot - cellSlot(0), time);
     lookAtCell(slot - cellSlot(0), time);
+  }
   else
   {
     const int pair = slot - pairSlot(0);
+    const int a = pairs_[pair].a, b = pairs_[pair].b;
     if (!pairs_[pair].contact_due)
     {
+      kind_ = CostKind::Look;
+      chargeEvent(a, time);
+      chargeEvent(b, time);
       lookAtPair(pair, time);
       return;
     }
-    const int a = pairs_[pair].a, b = pairs_[pair].b;
+    kind_ = CostKind::Contact;
     seeds_.clear();
     if (!bodies[a].fixed)
       seeds_.push_back(a);

@@ -51,6 +51,9 @@ public:
   std::vector<ContactEvent> contacts;
   std::vector<TimedCommand> inputs_done;
   Statistics statistics;
+  std::vector<int> islandOf(int body) const;
+
+  std::int64_t stall_after = 100000;  ///< events
 
 private:
   friend class World;
@@ -60,7 +63,6 @@ private:
   void buildBodies();
   void start();
   void resolveAll(const Time& time);
-  bool stalls(const Time& time, int slot);
   void keep(int slot, const Time& time);
   int expirySlot(int body) const
   {
@@ -83,6 +85,14 @@ private:
   template <class A>
   void exchange(A& archive);
   void clearWorkspace();
+
+  // meter.cpp: what it costs
+  void charge(int body, std::int64_t units);
+  void chargeEvent(int body, const Time& time);
+  void chargeTouches();
+  void chargeHit(const Touch& touch);
+  void noticeStall(int body, const Time& time);
+  void tryAgain();
 
   // neighbours.cpp: which pairs there are
   void configureGrid();
@@ -145,10 +155,6 @@ private:
   void dissolve(int body, const Time& time);
   void rebuild(const Time& time);
 
-  /// Events since crowd_start_, to notice time standing still.
-  Time crowd_start_;
-  std::int64_t crowd_ = 0;
-
   Scene loaded_;
   Field field_;
   double zero_height_ = 0.0;
@@ -187,6 +193,7 @@ private:
   std::vector<Rest> former_rests_;
   std::vector<Member> island_state_;
   bool velocity_decided_ = false;
+  CostKind kind_ = CostKind::Command;  ///< what is being done
 };
 
 }  // namespace block_world

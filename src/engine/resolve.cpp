@@ -233,7 +233,7 @@ void World::Engine::report(const Time& time, bool last)
     }
     if (impulse > threshold && t.pair != last_pair)
     {
-      ++statistics.impacts;
+      chargeHit(t);
       last_pair = t.pair;
     }
     if (fresh && last)
@@ -268,6 +268,7 @@ void World::Engine::report(const Time& time, bool last)
 /// Everything that touches the seeds meets at this instant: impacts, capture, new islands, new arcs, new promises.
 void World::Engine::resolve(const Time& time)
 {
+  const CostKind cause = kind_;
   for (const Member& m : group_.members)
     member_of_[m.body] = -1;
   group_.clear();
@@ -307,6 +308,7 @@ void World::Engine::resolve(const Time& time)
     impact_loss_ += group_.collide(scales);
     const bool again = velocity_decided_ && round < 8 && (round == 0 || group_.struck());
     report(time, !again);
+    chargeTouches();
     if (!again)
       break;
   }
@@ -320,6 +322,12 @@ void World::Engine::resolve(const Time& time)
     }
   regroup(time);
   lookAtPairs(time);
+  for (const Member& m : group_.members)
+  {
+    charge(m.body, bodies[m.body].arc.degree);
+    chargeEvent(m.body, time);
+  }
+  kind_ = cause;
 }
 
 /// Gaps of the touches that carry force become exactly zero, and so do their rates.
@@ -535,6 +543,8 @@ void World::Engine::continueIsland(int name, const Time& time)
   {
     cache_[body].time = Time::infinity();
     promiseCell(body, time);
+    charge(body, bodies[body].arc.degree);
+    chargeEvent(body, time);
   }
   promiseIsland(name, time);
 }
@@ -551,6 +561,8 @@ void World::Engine::lookAtPairs(const Time& time)
 void World::Engine::lookAtPair(int index, const Time& time)
 {
   Pair& pair = pairs_[index];
+  charge(pair.a, 1);
+  charge(pair.b, 1);
   const Body &a = bodies[pair.a], &b = bodies[pair.b];
   const Time end = std::min(a.arc.end, b.arc.end);
   const double horizon = end - time;

@@ -111,8 +111,8 @@ void exchange(A& archive, Scene& scene)
 template <class A>
 void exchange(A& archive, Statistics& statistics)
 {
-  auto& [events, impacts, worst_overlap, mode] = statistics;
-  archive(events, impacts, worst_overlap, mode);
+  auto& [events, impacts, worst_overlap, mode, stalled] = statistics;
+  archive(events, impacts, worst_overlap, mode, stalled);
 }
 
 template <class A>
@@ -144,12 +144,26 @@ void exchange(A& archive, MouseSpring& mouse)
 }
 
 template <class A>
+void exchange(A& archive, Cost::Part& part)
+{
+  auto& [count, units] = part;
+  archive(count, units);
+}
+
+template <class A>
+void exchange(A& archive, Cost& cost)
+{
+  auto& [parts] = cost;
+  archive(parts);
+}
+
+template <class A>
 void exchange(A& archive, Body& body)
 {
   auto& [name, shape, fixed, mass, inertia, inverse_mass, inverse_inertia, elasticity, thrusters, levels, thrust_until, wrench_force,
-         wrench_torque, push, twist, mouse, springs, arc, island, pairs] = body;
+         wrench_torque, push, twist, mouse, springs, arc, island, pairs, cost, crowd, crowd_start, crowd_cost] = body;
   archive(name, shape, fixed, mass, inertia, inverse_mass, inverse_inertia, elasticity, thrusters, levels, thrust_until, wrench_force,
-          wrench_torque, push, twist, mouse, springs, arc, island, pairs);
+          wrench_torque, push, twist, mouse, springs, arc, island, pairs, cost, crowd, crowd_start, crowd_cost);
 }
 
 template <class A>

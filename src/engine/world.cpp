@@ -24,6 +24,11 @@ Time World::advance(Time target, std::int64_t max_events)
   return engine_->advance(target, max_events);
 }
 
+void World::stallAfter(std::int64_t events)
+{
+  engine_->stall_after = events;
+}
+
 Applied World::apply(const Command& command)
 {
   return engine_->apply(command);
@@ -134,6 +139,16 @@ World World::restore(const std::string& saved, std::int64_t seconds_later)
 const Statistics& World::statistics() const
 {
   return engine_->statistics;
+}
+
+const Cost& World::cost(int body) const
+{
+  return engine_->bodies[body].cost;
+}
+
+std::vector<int> World::island(int body) const
+{
+  return engine_->islandOf(body);
 }
 
 const std::vector<std::string>& World::notes() const
