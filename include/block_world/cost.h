@@ -58,7 +58,7 @@ struct IslandCost
   Cost cost;
   double share = 0.0;  ///< of the units of all islands
 
-  /// "block3, block5: 97 % of the computing; 98 % of that impacts, 41000 a second"
+  /// "block3, block5: 97 % of the computing; 98 % impacts, 41000 a second"; without a rate where no time has passed.
   std::string describe(double seconds) const;
 };
 

@@ -72,10 +72,13 @@ std::string mainKind(const Cost& cost)
 
 std::string IslandCost::describe(double seconds) const
 {
-  char rate[32] = "";
-  if (seconds > 0.0)
-    std::snprintf(rate, sizeof rate, ", %.3g a second", static_cast<double>(cost.parts[mainPart(cost)].count) / seconds);
-  return listed(blocks) + ": " + percent(share) + " of the computing; " + mainKind(cost) + rate;
+  const std::string what = listed(blocks) + ": " + percent(share) + " of the computing; " + mainKind(cost);
+  if (!(seconds > 0.0))
+    return what;
+  const double rate = static_cast<double>(cost.parts[mainPart(cost)].count) / seconds;
+  char text[32];
+  std::snprintf(text, sizeof text, rate >= 10.0 && rate < 1e7 ? "%.0f" : "%.2g", rate);
+  return what + ", " + text + " a second";
 }
 
 std::vector<IslandCost> CostMeter::read(const World& world)
