@@ -172,10 +172,11 @@ TEST(Cost, InWords)
 {
   IslandCost island;
   island.blocks = { "block3", "block5" };
-  island.cost[CostKind::Impact] = { 20500, 980 };
+  island.cost[CostKind::Impact] = { 41000, 980 };
   island.cost[CostKind::Look] = { 10, 20 };
+  island.first[CostKind::Impact] = { 20500, 490 };
   island.share = 0.97;
-  EXPECT_EQ(island.describe(0.5), "block3, block5: 97 % of the computing; 98 % impacts, 41000 a second");
+  EXPECT_EQ(island.describe(0.5), "block3, block5: 97 % of the computing; 98 % impacts, 41000 a second of block3");
   EXPECT_EQ(island.describe(0.0), "block3, block5: 97 % of the computing; 98 % impacts");
   island.blocks.assign(20, "b");
   EXPECT_EQ(island.describe(0.0).substr(0, 30), "b, b, b, b, b, b and 14 more: ");

@@ -151,7 +151,7 @@ TEST_F(Simulate, Helps)
 {
   runWith("--help");
   EXPECT_EQ(status_, 0);
-  for (const char* option : { "SCENE", "--duration", "--sample", "--tolerance", "--states", "--energy", "--contacts" })
+  for (const char* option : { "SCENE", "--duration", "--sample", "--tolerance", "--states", "--energy", "--contacts", "--verbose" })
     EXPECT_NE(out_.find(option), std::string::npos) << option;
 }
 
@@ -259,6 +259,20 @@ TEST_F(Simulate, EndsWithASummary)
   const std::regex form("summary: simulated_s=4 engine_cpu_ms=[0-9.]+ events=[0-9]+ impacts=[0-9]+ "
                         "worst_overlap_m=[-+0-9.e]+ balance_error_J=[-+0-9.e]+ mode=exact");
   EXPECT_TRUE(std::regex_match(lastLine(err_), form)) << err_;
+}
+
+// Of 314 hits all are the light block's and half are the heavy one's.
+TEST_F(Simulate, TellsWhatTheComputingWasForIfAsked)
+{
+  run("pi_collisions", "--duration 10");
+  EXPECT_EQ(err_.find("summary: "), 0u) << err_;
+  run("pi_collisions", "--duration 10 --verbose");
+  const std::regex form("simulate: light: ([0-9]+) % of the computing; [0-9]+ % impacts, 31 a second\n"
+                        "simulate: heavy: ([0-9]+) % of the computing; [0-9]+ % impacts, 16 a second\n"
+                        "summary: [^\n]*\n");
+  std::smatch shares;
+  ASSERT_TRUE(std::regex_match(err_, shares, form)) << err_;
+  EXPECT_NEAR(std::stoi(shares[1]) + std::stoi(shares[2]), 100, 1);
 }
 
 TEST_F(Simulate, TellsOfARaisedTolerance)

@@ -56,9 +56,10 @@ struct IslandCost
 {
   std::vector<std::string> blocks;  ///< costliest first
   Cost cost;
+  Cost first;          ///< of the first block alone
   double share = 0.0;  ///< of the units of all islands
 
-  /// "block3, block5: 97 % of the computing; 98 % impacts, 41000 a second"; without a rate where no time has passed.
+  /// "block3, block5: 97 % of the computing; 98 % impacts, 41000 a second of block3"; without the rate where no time has passed.
   std::string describe(double seconds) const;
 };
 

@@ -75,10 +75,10 @@ std::string IslandCost::describe(double seconds) const
   const std::string what = listed(blocks) + ": " + percent(share) + " of the computing; " + mainKind(cost);
   if (!(seconds > 0.0))
     return what;
-  const double rate = static_cast<double>(cost.parts[mainPart(cost)].count) / seconds;
+  const double rate = static_cast<double>(first.parts[mainPart(cost)].count) / seconds;
   char text[32];
   std::snprintf(text, sizeof text, rate >= 10.0 && rate < 1e7 ? "%.0f" : "%.2g", rate);
-  return what + ", " + text + " a second";
+  return what + ", " + text + " a second" + (blocks.size() > 1 ? " of " + blocks.front() : "");
 }
 
 std::vector<IslandCost> CostMeter::read(const World& world)
@@ -108,6 +108,7 @@ std::vector<IslandCost> CostMeter::read(const World& world)
       continue;
     std::stable_sort(bodies.begin(), bodies.end(), [&](int a, int b) { return fresh[a].units() > fresh[b].units(); });
     IslandCost island;
+    island.first = fresh[bodies.front()];
     for (int body : bodies)
     {
       island.blocks.push_back(world.name(body));

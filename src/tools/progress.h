@@ -4,6 +4,8 @@
 
 #include <chrono>
 #include <cstdio>
+#include <string>
+#include <vector>
 
 #include "block_world/world.h"
 
@@ -27,17 +29,29 @@ public:
       return;
     next_ = elapsed.count() + 0.2;
     const double simulated = world.now().seconds();
-    std::fprintf(stderr, "\r%.3f s simulated, %lld events, %.3g x real time\033[K", simulated,
-                 static_cast<long long>(world.statistics().events), simulated / elapsed.count());
+    std::fprintf(stderr, "\r%.3f s simulated, %lld events, %.3g x real time%s\033[K", simulated,
+                 static_cast<long long>(world.statistics().events), simulated / elapsed.count(),
+                 simulated < elapsed.count() ? busiest(world).c_str() : "");
     is_shown_ = true;
   }
 
 private:
+  /// Where it is slow: why, since the line before.
+  std::string busiest(const World& world)
+  {
+    const std::vector<IslandCost> islands = meter_.read(world);
+    const double seconds = world.now() - told_;
+    told_ = world.now();
+    return islands.empty() ? std::string() : "; " + islands.front().describe(seconds);
+  }
+
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
   double next_ = 0.2;
   bool is_terminal_ = isatty(STDERR_FILENO) != 0;
   bool is_shown_ = false;
+  CostMeter meter_;
+  Time told_;
 };
 
 }  // namespace block_world

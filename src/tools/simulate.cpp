@@ -86,6 +86,15 @@ void printSummary(const World& world, const CpuClock& cpu, double worst_overlap)
                world.energy().balance_error, statistics.mode.c_str());
 }
 
+/// The islands that the computing of the whole run was done for, as many as can be read at a glance.
+void printCosts(const World& world)
+{
+  constexpr std::size_t most = 5;
+  const std::vector<IslandCost> islands = CostMeter().read(world);
+  for (std::size_t i = 0; i < std::min(most, islands.size()); ++i)
+    std::fprintf(stderr, "simulate: %s\n", islands[i].describe(world.now().seconds()).c_str());
+}
+
 /// Advances from sample to sample to the end; returns the deepest overlap seen at a sample.
 double advance(World& world, const SimulateOptions& options, CpuClock& cpu, Output& output, BagOutput& bag)
 {
@@ -95,7 +104,8 @@ double advance(World& world, const SimulateOptions& options, CpuClock& cpu, Outp
   for (std::int64_t number = 0;; ++number)
   {
     cpu.start();
-    std::vector<ContactEvent> contacts = bag.advance(sampleTime(number, options).nanoseconds());
+    std::vector<ContactEvent> contacts =
+        bag.advance(sampleTime(number, options).nanoseconds(), [&] { progress.show(world); });
     const Sample sample = readSample(world, output, std::move(contacts));
     cpu.stop();
     output.write(world, sample);
@@ -130,6 +140,8 @@ void run(Scene scene, const SimulateOptions& options, Output& output)
   const double worst_overlap = advance(world, options, cpu, output, bag);
   output.close();
   bag.close();
+  if (options.verbose)
+    printCosts(world);
   printSummary(world, cpu, worst_overlap);
   if (world.now() < Time::fromNanoseconds(options.duration))
     throw std::runtime_error(world.statistics().mode);

@@ -12,6 +12,20 @@
 
 namespace block_world
 {
+namespace
+{
+/// Whether the target was reached; else the world stalled.
+bool advanceTo(World& world, std::int64_t target, const std::function<void()>& busy)
+{
+  constexpr std::int64_t events_at_once = 10000;  // a tenth of a second at most
+  const Time goal = Time::fromNanoseconds(target);
+  while (world.advance(goal, events_at_once) < goal && !world.statistics().stalled)
+    busy();
+  return world.now() == goal;
+}
+
+}  // namespace
+
 #ifdef BLOCK_WORLD_WITH_ROS
 struct BagOutput::Recorder
 {
@@ -47,11 +61,11 @@ BagOutput::BagOutput(const std::string& path, World& world) : world_(world)
   recorder_->publish(world, 0, {});
 }
 
-std::vector<ContactEvent> BagOutput::advance(std::int64_t target)
+std::vector<ContactEvent> BagOutput::advance(std::int64_t target, const std::function<void()>& busy)
 {
   if (!recorder_)
   {
-    world_.advance(Time::fromNanoseconds(target));
+    advanceTo(world_, target, busy);
     return world_.takeContacts();
   }
   std::vector<ContactEvent> all;
@@ -60,7 +74,7 @@ std::vector<ContactEvent> BagOutput::advance(std::int64_t target)
   while (goes_on && goal < target)
   {
     goal = std::min(target, recorder_->schedule.after(goal));
-    goes_on = world_.advance(Time::fromNanoseconds(goal)) == Time::fromNanoseconds(goal);
+    goes_on = advanceTo(world_, goal, busy);
     const std::vector<ContactEvent> met = world_.takeContacts();
     all.insert(all.end(), met.begin(), met.end());
     recorder_->contacts.insert(recorder_->contacts.end(), met.begin(), met.end());
@@ -70,7 +84,7 @@ std::vector<ContactEvent> BagOutput::advance(std::int64_t target)
     recorder_->contacts.clear();
   }
   // What comes due right at the target.
-  world_.advance(Time::fromNanoseconds(target));
+  advanceTo(world_, target, busy);
   const std::vector<ContactEvent> met = world_.takeContacts();
   all.insert(all.end(), met.begin(), met.end());
   recorder_->contacts.insert(recorder_->contacts.end(), met.begin(), met.end());
@@ -97,9 +111,9 @@ BagOutput::BagOutput(const std::string& path, World& world) : world_(world)
     throw std::runtime_error("--bag: this program was built without ROS");
 }
 
-std::vector<ContactEvent> BagOutput::advance(std::int64_t target)
+std::vector<ContactEvent> BagOutput::advance(std::int64_t target, const std::function<void()>& busy)
 {
-  world_.advance(Time::fromNanoseconds(target));
+  advanceTo(world_, target, busy);
   return world_.takeContacts();
 }
 

@@ -37,6 +37,7 @@ po::options_description describeOptions(SimulateOptions& options, double& durati
   add("contacts", po::value(&options.contacts)->value_name("FILE"), "impacts and resting contacts as CSV");
   add("bag", po::value(&options.bag)->value_name("FILE.bag"),
       "the node's topics as a bag, for replay.launch and replay");
+  add("verbose,v", po::bool_switch(&options.verbose), "tell which blocks the computing was done for, and why");
   return description;
 }
 

@@ -15,6 +15,7 @@ struct SimulateOptions
   double sample = 0.0;                        ///< s
   std::optional<double> tolerance;            ///< m, in place of the scene's
   std::string states, energy, contacts, bag;  ///< paths; states empty = standard output, others empty = not wanted
+  bool verbose = false;                       ///< tell what the computing was done for
 };
 
 /// A command line that cannot be followed.
