@@ -113,6 +113,8 @@ public:
 
   /// The scene with every set, spawn and delete merged, block states as at load.
   const Scene& scene() const;
+  /// The scene that a reset brings back.
+  const Scene& loaded() const;
 
   /// Blocks, movable and fixed, in scene order; spawned ones at the end.
   int bodyCount() const;

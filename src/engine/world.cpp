@@ -44,6 +44,11 @@ const Scene& World::scene() const
   return engine_->scene;
 }
 
+const Scene& World::loaded() const
+{
+  return engine_->loaded_;
+}
+
 int World::bodyCount() const
 {
   return engine_->block_count;

@@ -47,6 +47,9 @@ void Diagnostics::publish(const World& world, const Pace& pace)
 {
   world_ = &world;
   pace_ = pace;
+  const std::vector<IslandCost> islands = meter_.read(world);
+  slowest_ = islands.empty() ? "none" : islands.front().describe(world.now() - metered_);
+  metered_ = world.now();
   updater_.force_update();
   sent_at_ = pace.clock;
   restart(pace.simulated, pace.clock);
@@ -61,16 +64,15 @@ void Diagnostics::tellPace(diagnostic_updater::DiagnosticStatusWrapper& status) 
   const double passed = static_cast<double>(pace_.clock - since_clock_) * 1e-9;
   const double lost = pace_.lost - lost_;
   if (statistics.mode != "exact")
-    status.summaryf(DiagnosticStatus::ERROR, "%s; reset, or take out or move one of the blocks there",
-                    statistics.mode.c_str());
+    status.summaryf(DiagnosticStatus::ERROR, "%s; reset, or load another scene", statistics.mode.c_str());
   else if (pace_.paused)
     status.summary(DiagnosticStatus::OK, "paused");
   else if (lost > 0.0)
-    status.summaryf(DiagnosticStatus::WARN, "too slow by %.3g s in the last second: take a lower real_time_factor",
-                    lost);
+    status.summaryf(DiagnosticStatus::WARN, "too slow by %.3g s in the last second: take a lower real_time_factor; %s",
+                    lost, slowest_.c_str());
   else if (pace_.late > 0.0)
-    status.summaryf(DiagnosticStatus::WARN, "%.3g s behind /clock: its owner should take a lower real_time_factor",
-                    pace_.late);
+    status.summaryf(DiagnosticStatus::WARN, "%.3g s behind /clock: its owner should take a lower real_time_factor; %s",
+                    pace_.late, slowest_.c_str());
   else
     status.summary(DiagnosticStatus::OK, "running");
 
@@ -88,6 +90,7 @@ void Diagnostics::tellPace(diagnostic_updater::DiagnosticStatusWrapper& status) 
   status.add("events per simulated second", simulated > 0.0 ? static_cast<double>(events) / simulated : 0.0);
   status.add("events", statistics.events);
   status.add("impacts", statistics.impacts);
+  status.add("slowest island", slowest_);
   status.add("blocks", world_->bodyCount());
   status.add("mode", statistics.mode);
 }

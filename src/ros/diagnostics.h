@@ -4,6 +4,7 @@
 #include <ros/node_handle.h>
 
 #include <cstdint>
+#include <string>
 
 #include "block_world/world.h"
 
@@ -41,10 +42,13 @@ private:
   std::int64_t sent_at_ = 0;
   std::int64_t since_simulated_ = 0, since_clock_ = 0;
   std::int64_t events_ = 0;  ///< that the world had counted then
+  CostMeter meter_;
+  Time metered_;
   double lost_ = 0.0;
 
   // What is being told.
   const World* world_ = nullptr;
+  std::string slowest_;  ///< island since the last time, and why
   Pace pace_;
 };
 

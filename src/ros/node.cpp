@@ -127,10 +127,11 @@ bool Node::start()
 
 ros::WallDuration Node::patience() const
 {
-  if (!isSettled() || !pending_.empty())
+  const bool stalled = world_.statistics().stalled;
+  if (!stalled && (!isSettled() || !pending_.empty()))
     return ros::WallDuration(0);
   std::int64_t wait = time_.follows() ? FOLLOWER_WAIT : time_.untilDue();
-  if (!paused_ && !time_.follows())
+  if (!paused_ && !stalled && !time_.follows())
   {
     if (parameters_.real_time_factor == 0.0)
       return ros::WallDuration(0);
@@ -148,6 +149,13 @@ bool Node::isSettled() const
 /// Brings the world to the simulated time that belongs to the present moment, as far as a slice of work will do it.
 void Node::catchUp()
 {
+  if (world_.statistics().stalled)
+  {
+    warnings_.warn("stalled", world_.statistics().mode + "; reset, or load another scene");
+    if (!time_.follows())
+      pacer_.anchor(now_ns_, time_.now());
+    return;
+  }
   std::int64_t target = now_ns_;
   if (!paused_ && parameters_.real_time_factor == 0.0 && !time_.follows())
   {
@@ -193,7 +201,7 @@ void Node::advanceWorld(std::int64_t goal, std::int64_t deadline)
   while (world_.advance(Time::fromNanoseconds(goal), EVENTS_AT_ONCE) < Time::fromNanoseconds(goal))
   {
     const std::int64_t now = steadyNow();
-    if (isEnding() || now >= deadline + LONGEST_SLICE)
+    if (isEnding() || world_.statistics().stalled || now >= deadline + LONGEST_SLICE)
       return;
     if (now >= deadline)
       goal = std::min(goal, wholeNanoseconds(world_.now()));

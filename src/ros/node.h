@@ -82,6 +82,7 @@ private:
   bool onDeleteBlock(msg::DeleteBlock::Request& request, msg::DeleteBlock::Response& response);
   std::string makeReady();
   std::string applyNow(const Command& command);
+  void exchangeWorld(World world);
   std::string replaceWorld(const SceneSource& source, const std::optional<int>& count, const SetCommand& set);
   void showNewWorld();
   std::string restore(const std::string& path);

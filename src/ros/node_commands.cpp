@@ -138,13 +138,13 @@ bool Node::onStep(msg::Step::Request& request, msg::Step::Response& response)
     return true;
 
   const std::int64_t target = now_ns_ + std::llround(request.duration * 1e9);
-  while (!isEnding() && (now_ns_ < target || !isSettled()))
+  while (!isEnding() && !world_.statistics().stalled && (now_ns_ < target || !isSettled()))
   {
     advance(target, steadyNow() + STEP_SLICE);
     time_.publish(now_ns_);
   }
   response.success = now_ns_ == target;
-  response.message = response.success ? "" : "interrupted";
+  response.message = response.success ? "" : world_.statistics().stalled ? world_.statistics().mode : "interrupted";
   if (now_ns_ > state_ns_)
     publishState();
   time_.publish(now_ns_, true);

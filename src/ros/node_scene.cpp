@@ -71,7 +71,10 @@ std::string Node::makeReady()
 {
   catchUp();
   applyPending();
-  return isSettled() ? std::string() : "the engine is in the middle of a burst of events: try again";
+  if (isSettled())
+    return std::string();
+  return world_.statistics().stalled ? world_.statistics().mode :
+                                       "the engine is in the middle of a burst of events: try again";
 }
 
 /// Applies a command here and now and shows the state before and after it; returns why not, or nothing.
@@ -88,18 +91,23 @@ std::string Node::applyNow(const Command& command)
   return reason;
 }
 
+/// Another world in the place of this one. If this one is in the middle of events, what is not told of it yet never will be:
+/// a world that has got stuck can always be got rid of.
+void Node::exchangeWorld(World world)
+{
+  if (isSettled() && now_ns_ > state_ns_)
+    publishState();
+  pending_.clear();
+  world_ = std::move(world);
+}
+
 /// Another scene in the place of this one, from here and now on; returns why not, or nothing.
 std::string Node::replaceWorld(const SceneSource& source, const std::optional<int>& count, const SetCommand& set)
 {
-  std::string reason = makeReady();
-  if (!reason.empty())
-    return reason;
+  makeReady();
   try
   {
-    World world(buildScene(source, count, set), Time::fromNanoseconds(now_ns_));
-    if (now_ns_ > state_ns_)
-      publishState();
-    world_ = std::move(world);
+    exchangeWorld(World(buildScene(source, count, set), Time::fromNanoseconds(now_ns_)));
   }
   catch (const std::runtime_error& error)
   {
@@ -125,16 +133,12 @@ void Node::showNewWorld()
 /// A saved world in the place of this one; returns why not, or nothing.
 std::string Node::restore(const std::string& path)
 {
-  std::string reason = makeReady();
-  if (!reason.empty())
-    return reason;
+  makeReady();
   try
   {
     const std::string saved = readFile(path);
     RestoredWorld restored = restoreNotBefore(saved, now_ns_);
-    if (now_ns_ > state_ns_)
-      publishState();
-    world_ = std::move(restored.world);
+    exchangeWorld(std::move(restored.world));
     now_ns_ = restored.time_ns;
     publishers_.publishRestored(saved, now_ns_);
   }
@@ -160,7 +164,16 @@ bool Node::answer(const char* done, const std::string& reason, Response& respons
 
 bool Node::onReset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response)
 {
-  const std::string reason = applyNow(ResetCommand());
+  std::string reason;
+  if (makeReady().empty())
+    reason = applyNow(ResetCommand());
+  else
+  {
+    exchangeWorld(World(world_.loaded(), Time::fromNanoseconds(now_ns_)));
+    notes_told_ = world_.notes().size();
+    publishers_.publishScene(now_ns_);
+    showNewWorld();
+  }
   if (reason.empty())
   {
     publishers_.forgetImpulses();

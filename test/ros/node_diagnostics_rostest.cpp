@@ -3,8 +3,13 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <dynamic_reconfigure/Reconfigure.h>
 
-#include <cstdlib>
+#include <unistd.h>
 
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+
+#include "block_world/scene_yaml.h"
 #include "node_client.h"
 
 namespace block_world
@@ -69,6 +74,7 @@ TEST_F(NodeDiagnostics, comeOncePerSecondWhilePaused)
   EXPECT_EQ(pace.message, "paused");
   EXPECT_EQ(value(pace, "mode"), "exact");
   EXPECT_EQ(value(pace, "blocks"), "2");
+  EXPECT_EQ(value(pace, "slowest island"), "none");
   EXPECT_EQ(part(diagnostics.messages.back(), "accuracy").level, DiagnosticStatus::OK);
 }
 
@@ -86,6 +92,13 @@ TEST_F(NodeDiagnostics, tellThePaceAndTheEvents)
   EXPECT_NEAR(number(pace, "real-time factor reached"), 1.0, 0.1);
   // 50 hits, and looks ahead that find none yet; a hit more or less where the second begins.
   EXPECT_GE(number(pace, "events per simulated second"), 49.0);
+  // Of a second, and so of 50 hits, one more or less may fall into the message.
+  const std::string slowest = value(pace, "slowest island");
+  double rate = 0.0;
+  int share = 0;
+  EXPECT_EQ(std::sscanf(slowest.c_str(), "block1: 100 %% of the computing; %d %% impacts, %lf a second", &share, &rate), 2)
+      << slowest;
+  EXPECT_NEAR(rate, 50.0, 1.0) << slowest;
   const DiagnosticStatus& accuracy = part(message, "accuracy");
   EXPECT_EQ(accuracy.level, DiagnosticStatus::OK) << accuracy.message;
   EXPECT_NEAR(number(accuracy, "total energy (J)"), 0.5 * 50.0 * 50.0, 0.01);
@@ -105,10 +118,60 @@ TEST_F(NodeDiagnostics, warnWhereTimeFallsBehind)
   EXPECT_EQ(pace.level, DiagnosticStatus::WARN);
   EXPECT_NE(pace.message.find("too slow"), std::string::npos) << pace.message;
   EXPECT_NE(pace.message.find("real_time_factor"), std::string::npos) << pace.message;
+  EXPECT_NE(pace.message.find("; block1: 100 % of the computing; "), std::string::npos) << pace.message;
+  EXPECT_NE(pace.message.find(" % impacts, "), std::string::npos) << pace.message;
   EXPECT_LT(number(pace, "real-time factor reached"), 0.9);
   EXPECT_GT(number(pace, "simulated time lost (s)"), 0.0);
   client.reset();
   EXPECT_EQ(part(next(), "pace").level, DiagnosticStatus::OK) << "what is over is no warning any more";
+}
+
+// A slot of 2 nm at 1e6 m/s: 500 hits within 1e-12 s, of which this world, restored as it is, takes no more than 100 for true.
+TEST_F(NodeDiagnostics, failWhereTimeStandsStill)
+{
+  World world(loadSceneText("tolerance: 1.0e-12\nwalls: {left: -0.500000001, right: 0.500000001}\n"
+                            "blocks: [{name: rattler, size: [1, 1], pose: [0, 0, 0], velocity: [1.0e+6, 0, 0]},\n"
+                            "  {name: calm, size: [1, 1], pose: [0, 5, 0]}]", "storm"));
+  world.stallAfter(100);
+  const std::string path = "/tmp/node_diagnostics_" + std::to_string(getpid());
+  std::ofstream(path, std::ios::binary) << world.save();
+  msg::RestoreState::Request restored;
+  restored.path = path;
+  ASSERT_TRUE(client.call<msg::RestoreState>(topics::RESTORE_STATE, restored).success);
+  EXPECT_EQ(part(next(), "pace").message, "paused");
+
+  // A step ends where time does.
+  msg::Step::Request second;
+  second.duration = 1.0;
+  const msg::Step::Response step = client.step(second);
+  EXPECT_FALSE(step.success);
+  EXPECT_EQ(step.message.find("stalled at 'rattler': 100 events within 1e-12 s, "), 0u) << step.message;
+
+  const DiagnosticArray message = next();
+  const DiagnosticStatus& pace = part(message, "pace");
+  EXPECT_EQ(pace.level, DiagnosticStatus::ERROR);
+  EXPECT_EQ(pace.message.find("stalled at 'rattler': 100 events within 1e-12 s, "), 0u) << pace.message;
+  EXPECT_NE(pace.message.find(" % impacts; reset, or load another scene"), std::string::npos) << pace.message;
+  EXPECT_NE(value(pace, "mode"), "exact");
+  client.pause(false);
+  EXPECT_EQ(part(next(), "pace").level, DiagnosticStatus::ERROR) << "running changes nothing";
+  client.pause(true);
+
+  // Commands act at whole nanoseconds, none of which comes any more.
+  msg::SetState::Request moved;
+  moved.state.name = "rattler";
+  const msg::SetState::Response refused = client.call<msg::SetState>(topics::SET_STATE, moved);
+  EXPECT_FALSE(refused.success);
+  EXPECT_EQ(refused.message.find("stalled at 'rattler'"), 0u) << refused.message;
+  client.reset();
+  EXPECT_EQ(part(next(), "pace").message, "paused");
+
+  ASSERT_TRUE(client.call<msg::RestoreState>(topics::RESTORE_STATE, restored).success);
+  EXPECT_FALSE(client.step(second).success);
+  client.load("blocks: [{size: [1, 1], pose: [0, 0, 0]}]");
+  EXPECT_EQ(part(next(), "pace").message, "paused");
+  EXPECT_EQ(client.advance(1.0).size(), 1u);
+  std::remove(path.c_str());
 }
 
 TEST_F(NodeDiagnostics, failWhereTheEnergyIsNotFinite)
