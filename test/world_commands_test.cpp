@@ -340,6 +340,38 @@ TEST(Commands, TimedInputsAreCommandsAtTheirTimes)
   EXPECT_NEAR(timed.energy().spring_work, live.energy().spring_work, 1e-14);
 }
 
+// Whether anything takes energy between impacts follows from what acts, not from the order in which it came.
+TEST(Commands, DampersOfTheMouseInAnyOrder)
+{
+  const Scene scene = makeScene(9.8, 1.0, { makeBox("a", { 1, 1 }, { 0, 5 }) }, onFloor());
+  SpringCommand pull;
+  pull.body = "a";
+  pull.anchor = Vector2d(0.0, 6.0);
+  pull.stiffness = 1.0;
+  SpringCommand damped = pull, none;
+  damped.damping = 0.5;
+  none.active = false;
+  const SpawnCommand spawn{ makeBox("b", { 1, 1 }, { 10, 5 }) };
+  const auto hashAfter = [&](const std::vector<Command>& commands) {
+    World world(scene);
+    for (const Command& command : commands)
+      EXPECT_TRUE(world.apply(command).ok);
+    return world.stateHash();
+  };
+  EXPECT_EQ(hashAfter({ damped, spawn }), hashAfter({ spawn, damped }));
+  EXPECT_EQ(hashAfter({ spawn, damped, none }), hashAfter({ spawn }));
+  EXPECT_EQ(hashAfter({ damped, pull }), hashAfter({ pull }));
+  EXPECT_NE(hashAfter({ damped }), hashAfter({ pull }));
+  // Nothing pulls and nothing moves: what is left after the damper's end is the time.
+  damped.stiffness = 0.0;
+  damped.duration = 0.5;
+  World world(makeScene(0.0, 1.0, { makeBox("a", { 1, 1 }, { 0, 5 }) }, onFloor())), still = World::restore(world.save());
+  ASSERT_TRUE(world.apply(damped).ok);
+  run(world, 1.0);
+  run(still, 1.0);
+  EXPECT_EQ(world.stateHash(), still.stateHash());
+}
+
 }  // namespace
 }  // namespace block_world
 

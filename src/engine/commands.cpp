@@ -32,6 +32,16 @@ void World::Engine::refreshPush(Body& body)
   }
 }
 
+/// Whether anything takes energy between impacts.
+void World::Engine::refreshDissipative()
+{
+  dissipative_ = scene.damping > 0.0;
+  for (const SpringLink& link : links_)
+    dissipative_ = dissipative_ || link.damping > 0.0;
+  for (const Body& body : bodies)
+    dissipative_ = dissipative_ || (body.mouse.active && body.mouse.damping > 0.0);
+}
+
 void World::Engine::expiryPromise(int body)
 {
   const Body& b = bodies[body];
@@ -50,6 +60,7 @@ void World::Engine::release(Body& body, const Time& time)
 {
   spring_work_ -= mouseEnergy(body, time);
   body.mouse = MouseSpring();
+  refreshDissipative();
 }
 
 /// A timed command of a body ends.
@@ -184,6 +195,7 @@ void World::Engine::rebuild(const Time& time)
     body.island = i;
     islands_[i].bodies.assign(1, i);
   }
+  refreshDissipative();
   // The jump is the command's; what impacts take at once is theirs.
   command_work_ += storedTotal(time) - before;
   pairAll();
@@ -314,7 +326,7 @@ struct World::Engine::Handler
     body.mouse.stiffness = c.stiffness;
     body.mouse.damping = c.damping;
     body.mouse.until = c.duration > 0.0 ? time + c.duration : Time::infinity();
-    engine.dissipative_ = engine.dissipative_ || c.damping > 0.0;
+    engine.refreshDissipative();
     engine.spring_work_ += engine.mouseEnergy(body, time);
     engine.wake(i, time);
   }
@@ -452,11 +464,7 @@ void World::Engine::set(const SetCommand& c)
   scene.gravity = field_.gravity = c.gravity.value_or(scene.gravity);
   scene.damping = field_.damping = c.damping.value_or(scene.damping);
   field_.rotational_damping = scene.damping * scene.rotational_damping_ratio;
-  dissipative_ = scene.damping > 0.0;
-  for (const SpringLink& link : links_)
-    dissipative_ = dissipative_ || link.damping > 0.0;
-  for (const Body& body : bodies)
-    dissipative_ = dissipative_ || (body.mouse.active && body.mouse.damping > 0.0);
+  refreshDissipative();
   if (c.mass)
   {
     scene.blocks[0].mass = *c.mass;

@@ -28,7 +28,6 @@ void World::Engine::build()
         return i;
     return -1;
   };
-  dissipative_ = scene.damping > 0.0;
   for (const Spring& spring : scene.springs)
   {
     SpringLink link;
@@ -39,12 +38,12 @@ void World::Engine::build()
     link.stiffness = spring.stiffness;
     link.rest_length = spring.rest_length;
     link.damping = spring.damping;
-    dissipative_ = dissipative_ || spring.damping > 0.0;
     for (int end : { link.first, link.second })
       if (end >= 0 && !bodies[end].fixed)
         bodies[end].springs.push_back(static_cast<int>(links_.size()));
     links_.push_back(link);
   }
+  refreshDissipative();
   const int count = static_cast<int>(bodies.size());
   islands_.assign(count, Island());
   promises_.reset(pairSlot(0));

@@ -149,6 +149,7 @@ private:
   void wake(int body, const Time& time);
   void set(const SetCommand& command);
   void refreshPush(Body& body);
+  void refreshDissipative();
   void release(Body& body, const Time& time);
   void pickNearest(SpringCommand& command, const Time& time) const;
   bool overlaps(int body, const Frame& frame, const Time& time, std::string& with) const;
