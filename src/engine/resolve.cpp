@@ -500,7 +500,7 @@ void World::Engine::promiseIsland(int name, const Time& time)
     for (double& c : left)
       c = -c;
     left[0] += face.length;
-    for (const Series* margin : { &rest.along, const_cast<const Series*>(&left) })
+    for (const Series* margin : std::array<const Series*, 2>{ &rest.along, &left })
       span = std::min(span, firstBelow(*margin, rest.degree, span, (*margin)[0] > resolution_ ? 0.0 : -scene.tolerance));
   }
   promises_.set(islandSlot(name), span < arc.horizon ? time + span : arc.end);
