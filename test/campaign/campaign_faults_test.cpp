@@ -81,4 +81,29 @@ std::string nameOf(const testing::TestParamInfo<Fault>& info)
 }
 
 INSTANTIATE_TEST_SUITE_P(Engines, Faults, testing::ValuesIn(faults), nameOf);
+
+// No true course stalls; an engine that takes no more than 100 events within 1e-12 s for true does where 500 hits come.
+TEST(Stall, EndsSimulateAndIsExplained)
+{
+  const fs::path folder = fs::temp_directory_path() / ("campaign_stall_" + std::to_string(getpid()));
+  fs::create_directories(folder);
+  std::ofstream(folder / "storm.yaml")
+      << "tolerance: 1.0e-12\nwalls: {left: -0.500000001, right: 0.500000001}\n"
+         "blocks: [{name: rattler, size: [1, 1], pose: [0, 0, 0], velocity: [1.0e+6, 0, 0]}, {pose: [0, 5, 0]}]\n";
+  const fs::path simulate = fs::path(BLOCK_WORLD_CAMPAIGN).parent_path() / "simulate_time_stops";
+  const std::string command = shell(simulate) + " " + shell(folder / "storm.yaml") + " --states /dev/null 2> " +
+                              shell(folder / "errors");
+  const int status = std::system(command.c_str());
+  std::ifstream file(folder / "errors");
+  std::string summary, reason;
+  std::getline(file, summary);
+  std::getline(file, reason);
+  fs::remove_all(folder);
+  EXPECT_EQ(WIFEXITED(status) ? WEXITSTATUS(status) : -1, 1);
+  const std::string stall = "stalled at 'rattler': 100 events within 1e-12 s, ";
+  EXPECT_EQ(summary.find("summary: simulated_s="), 0u) << summary;
+  EXPECT_NE(summary.find("mode=" + stall), std::string::npos) << summary;
+  EXPECT_EQ(reason.find("simulate: " + stall), 0u) << reason;
+  EXPECT_NE(reason.find(" % impacts"), std::string::npos) << reason;
+}
 }  // namespace

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "block_world/scene_yaml.h"
+#include "block_world/world.h"
 #include "node_client.h"
 
 namespace block_world
