@@ -8,6 +8,9 @@
 
 namespace block_world
 {
+/// A sum that cancels to less than this share of its terms is zero: what is left is rounding, and would otherwise grow from order to order.
+constexpr double kCancelled = 64 * 2.220446049250313e-16;
+
 /// A touch that carries force along an arc.
 struct Rest
 {
@@ -72,16 +75,18 @@ private:
 
   void begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
              const std::vector<Member>& members, std::vector<Rest>& rests);
-  void gatherLinks(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members);
   void trigonometry(int n);
   void freeAcceleration(int n);
-  void springForce(LinkWork& link, int n);
   void contactGeometry(int n);
   void contactKnown(int n);
   void contactSolve(int n);
   bool store(int n);
   void finish(const std::vector<Body>& bodies, int degree);
   bool endsEarly() const;
+
+  // springs.cpp
+  void gatherLinks(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members);
+  void springForce(LinkWork& link, int n);
 
   const Field* field_ = nullptr;
   std::vector<Body*> body_;
