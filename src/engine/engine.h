@@ -94,31 +94,33 @@ private:
   void noticeStall(int body, const Time& time);
   void tryAgain();
 
-  // neighbours.cpp: which pairs there are
+  // neighbours.cpp: which pairs there are, and when to look at them
   void configureGrid();
   void pairAll();
   void addPair(int a, int b);
   void dropPair(int pair);
   void lookAtCell(int body, const Time& time);
   void promiseCell(int body, const Time& time);
+  void lookAtPairs(const Time& time);
+  void lookAtPair(int pair, const Time& time);
 
   // resolve.cpp: what happens at an event
   void resolve(const Time& time);
   void join(int body, const Time& time);
   int memberOf(int body, const Time& time);
   void findTouches(const Time& time, int round);
-  void report(const Time& time, bool last);
+  void report(const Time& time, bool last);  // report.cpp
   void settle();
+  const Snapshot& snapshot(int body, const Time& time);
+  const Frame& frame(int body, const Time& time);
+  void freeAcceleration(Member& member) const;
+
+  // islands.cpp: who moves as one, and how
   void regroup(const Time& time);
   void launch(const Time& time, const std::vector<int>& members);
   void promiseIsland(int island, const Time& time);
   void endDecay(Member& member) const;
   void continueIsland(int island, const Time& time);
-  void lookAtPairs(const Time& time);
-  void lookAtPair(int pair, const Time& time);
-  const Snapshot& snapshot(int body, const Time& time);
-  const Frame& frame(int body, const Time& time);
-  void freeAcceleration(Member& member) const;
 
   // account.cpp: energies and works
   struct Work

@@ -1,4 +1,4 @@
-// Which pairs there are: each body with every wall, and with the bodies near it in the grid.
+// Which pairs there are: each body with every wall, and with the bodies near it in the grid. When each is to be looked at.
 
 #include <algorithm>
 
@@ -108,6 +108,36 @@ void World::Engine::promiseCell(int body, const Time& time)
   const Grid::Box box = grid_.keeps(body);
   const double span = detector_.within(b, snapshot(body, time), box.low, box.high, horizon);
   promises_.set(cellSlot(body), span < horizon ? time + span : b.arc.end);
+}
+
+void World::Engine::lookAtPairs(const Time& time)
+{
+  for (const Member& m : group_.members)
+    if (!bodies[m.body].fixed)
+      promiseCell(m.body, time);
+  for (int index : group_pairs_)
+    lookAtPair(index, time);
+}
+
+void World::Engine::lookAtPair(int index, const Time& time)
+{
+  Pair& pair = pairs_[index];
+  charge(pair.a, 1);
+  charge(pair.b, 1);
+  const Body &a = bodies[pair.a], &b = bodies[pair.b];
+  const Time end = std::min(a.arc.end, b.arc.end);
+  const double horizon = end - time;
+  const Snapshot &now_a = snapshot(pair.a, time), &now_b = snapshot(pair.b, time);
+  double span = -1.0;
+  if (pair.resting.empty())
+    span = detector_.apart(a, now_a, b, now_b, horizon);
+  pair.contact_due = false;
+  if (span < 0.0)
+  {
+    const View view_a{ &a, &now_a, frame(pair.a, time) }, view_b{ &b, &now_b, frame(pair.b, time) };
+    span = detector_.certify(pair, view_a, view_b, time, horizon);
+  }
+  promises_.set(pairSlot(index), span < horizon ? time + span : end);
 }
 
 }  // namespace block_world

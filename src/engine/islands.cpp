@@ -1,0 +1,205 @@
+// Bodies that move as one: which they are after an event, their arcs, and their next event.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine.h"
+
+namespace block_world
+{
+/// New islands among the members: joined by touches that carry force or by springs.
+void World::Engine::regroup(const Time& time)
+{
+  const int count = static_cast<int>(group_.members.size());
+  component_.resize(count);
+  for (int i = 0; i < count; ++i)
+    component_[i] = i;
+  const auto root = [this](int i) {
+    while (component_[i] != i)
+      i = component_[i];
+    return i;
+  };
+  const auto unite = [&](int i, int j) {
+    const int p = root(i), q = root(j);
+    if (group_.members[p].body < group_.members[q].body)
+      component_[q] = p;
+    else
+      component_[p] = q;
+  };
+  for (const Touch& t : group_.touches)
+    if (t.active && !bodies[t.a].fixed && !bodies[t.b].fixed)
+      unite(t.member_a, t.member_b);
+  for (const Member& m : group_.members)
+    for (int index : bodies[m.body].springs)
+    {
+      const SpringLink& link = links_[index];
+      if (link.second >= 0 && !bodies[link.first].fixed && !bodies[link.second].fixed)
+        unite(member_of_[link.first], member_of_[link.second]);
+    }
+  for (const Member& m : group_.members)
+    if (!bodies[m.body].fixed)
+    {
+      islands_[m.body].bodies.clear();
+      islands_[m.body].rests.clear();
+      promises_.set(islandSlot(m.body), Time::infinity());
+    }
+  for (int index : group_pairs_)
+    pairs_[index].resting.clear();
+  for (int i = 0; i < count; ++i)
+  {
+    if (bodies[group_.members[i].body].fixed || root(i) != i)
+      continue;
+    island_members_.clear();
+    for (int j = 0; j < count; ++j)
+      if (!bodies[group_.members[j].body].fixed && root(j) == i)
+        island_members_.push_back(j);
+    launch(time, island_members_);
+  }
+}
+
+/// Arcs and promises of one new island. members: indices into the group.
+void World::Engine::launch(const Time& time, const std::vector<int>& members)
+{
+  int name = group_.members[members.front()].body;
+  for (int m : members)
+    name = std::min(name, group_.members[m].body);
+  Island& island = islands_[name];
+  island_state_.clear();
+  for (std::size_t k = 0; k < members.size(); ++k)
+  {
+    const Member& m = group_.members[members[k]];
+    island.bodies.push_back(m.body);
+    bodies[m.body].island = name;
+    island_state_.push_back(m);
+  }
+  const auto indexIn = [&](int member) {
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (members[k] == member)
+        return static_cast<int>(k);
+    return -1;
+  };
+  for (const Touch& t : group_.touches)
+  {
+    if (!t.active)
+      continue;
+    Rest rest;
+    rest.touch = t;
+    rest.touch.member_a = indexIn(t.member_a);
+    rest.touch.member_b = indexIn(t.member_b);
+    if (rest.touch.member_a < 0 && rest.touch.member_b < 0)
+      continue;
+    island.rests.push_back(rest);
+    Pair& pair = pairs_[t.pair];
+    pair.resting.push_back({ pair.a == t.b, t.face, t.vertex });
+  }
+  flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
+  for (int body : island.bodies)
+    cache_[body].time = Time::infinity();
+
+  // An island in equilibrium whose velocities are rounding sleeps: constant arcs without an end. What rounding leaves of an acceleration is
+  // proportional to the forces that cancel in it.
+  if (!island.rests.empty())
+  {
+    double a = group_.accelerationScale();
+    for (const Rest& rest : island.rests)
+      for (int body : { rest.touch.a, rest.touch.b })
+        a = std::max(a, std::abs(rest.force[0]) * bodies[body].inverse_mass);
+    bool still = true;
+    for (int body : island.bodies)
+    {
+      const Arc& arc = bodies[body].arc;
+      const double radius = bodies[body].shape.radius;
+      const double speed = std::hypot(arc.x[1], arc.y[1]) + radius * std::abs(arc.angle[1]);
+      const double acceleration = 2.0 * (std::hypot(arc.x[2], arc.y[2]) + radius * std::abs(arc.angle[2]));
+      still = still && speed <= 1e-12 * std::sqrt(a * radius) && acceleration <= 1e-12 * a;
+    }
+    if (still)
+    {
+      for (int body : island.bodies)
+      {
+        Arc& arc = bodies[body].arc;
+        arc.x[1] = arc.y[1] = arc.angle[1] = arc.x[2] = arc.y[2] = arc.angle[2] = 0.0;
+        arc.degree = 0;
+        arc.horizon = std::numeric_limits<double>::infinity();
+        arc.end = Time::infinity();
+        arc.jerk = arc.angular_jerk = 0.0;
+      }
+      for (Rest& rest : island.rests)
+        rest.degree = 0;
+    }
+  }
+  promiseIsland(name, time);
+}
+
+/// The island's next event: the end of its arcs, a force that would pull, or a vertex that leaves its face.
+void World::Engine::promiseIsland(int name, const Time& time)
+{
+  const Island& island = islands_[name];
+  const Arc& arc = bodies[island.bodies.front()].arc;
+  double span = arc.horizon;
+  double largest = 0.0;
+  for (const Rest& rest : island.rests)
+    largest = std::max(largest, std::abs(rest.force[0]));
+  for (const Rest& rest : island.rests)
+  {
+    if (rest.degree > 2)
+      span = std::min(span, firstBelow(rest.force, rest.degree - 2, span, -1e-12 * largest));
+    const Face& face = bodies[rest.touch.b].shape.faces[rest.touch.face];
+    if (std::isinf(face.length))
+      continue;
+    // A vertex inside the face's ends leaves exactly at them; one that was let in a little outside has the shell to go.
+    Series left = rest.along;
+    for (double& c : left)
+      c = -c;
+    left[0] += face.length;
+    for (const Series* margin : std::array<const Series*, 2>{ &rest.along, &left })
+      span = std::min(span, firstBelow(*margin, rest.degree, span, (*margin)[0] > resolution_ ? 0.0 : -scene.tolerance));
+  }
+  promises_.set(islandSlot(name), span < arc.horizon ? time + span : arc.end);
+}
+
+/// A component of the velocity that has decayed to the rounding of the others is zero: else it would go on decaying, in arcs as short as its time.
+void World::Engine::endDecay(Member& m) const
+{
+  constexpr double kDecayed = 64 * 2.220446049250313e-16;
+  const double radius = bodies[m.body].shape.radius, least = kDecayed * (m.velocity.norm() + radius * std::abs(m.omega));
+  for (double* component : { &m.velocity.x(), &m.velocity.y() })
+    if (std::abs(*component) <= least)
+      *component = 0.0;
+  if (radius * std::abs(m.omega) <= least)
+    m.omega = 0.0;
+}
+
+/// The arcs of an island without contact reach their end: the same motion, expanded anew. No trajectory changes, so no other promise does.
+void World::Engine::continueIsland(int name, const Time& time)
+{
+  Island& island = islands_[name];
+  island_state_.clear();
+  for (int body : island.bodies)
+  {
+    closeArc(body, time);
+    const Snapshot now = snapshot(body, time);
+    Member m;
+    m.body = body;
+    m.frame = frame(body, time);
+    m.angle = now.angle;
+    m.velocity = now.velocity;
+    m.omega = now.omega;
+    if (field_.damping > 0.0)
+      endDecay(m);
+    island_state_.push_back(m);
+  }
+  closeSprings(name, time);
+  flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
+  for (int body : island.bodies)
+  {
+    cache_[body].time = Time::infinity();
+    promiseCell(body, time);
+    charge(body, bodies[body].arc.degree);
+    chargeEvent(body, time);
+  }
+  promiseIsland(name, time);
+}
+
+}  // namespace block_world

@@ -1,0 +1,73 @@
+// What an event did, as contacts.
+
+#include <cmath>
+
+#include "engine.h"
+
+namespace block_world
+{
+/// What the last collide did, as contacts.
+void World::Engine::report(const Time& time, bool last)
+{
+  int last_pair = -1;
+  const auto contactOf = [&](const Touch& t, ContactKind kind) {
+    ContactEvent contact;
+    contact.time = time;
+    contact.kind = kind;
+    contact.a = t.a;
+    contact.b = t.b;
+    contact.point = group_.members[t.member_a].frame.position + t.arm;
+    contact.normal = t.normal;
+    contact.normal_velocity = t.approach;
+    return contact;
+  };
+  const auto same = [](const Touch& p, const Touch& q) {
+    return p.a == q.a && p.b == q.b && p.vertex == q.vertex && p.face == q.face;
+  };
+  for (const Touch& t : group_.touches)
+  {
+    const bool fresh = t.active && !t.rested;
+    const double impulse = t.impulse + t.capture;
+    const double threshold = group_.noise() / contactGram(t, t, group_.members);
+    const bool hit = std::abs(impulse) > threshold;
+    if (hit && !(fresh && last))
+    {
+      ContactEvent contact = contactOf(t, ContactKind::Impact);
+      contact.impulse = impulse;
+      contacts.push_back(contact);
+    }
+    if (impulse > threshold && t.pair != last_pair)
+    {
+      chargeHit(t);
+      last_pair = t.pair;
+    }
+    if (fresh && last)
+    {
+      ContactEvent contact = contactOf(t, ContactKind::RestBegin);
+      contact.impulse = impulse;
+      contacts.push_back(contact);
+    }
+  }
+  if (!last)
+    return;
+  for (const Rest& former : former_rests_)
+  {
+    bool gone = true;
+    for (const Touch& t : group_.touches)
+      gone = gone && !(t.active && same(former.touch, t));
+    if (!gone)
+      continue;
+    Touch ended = former.touch;
+    ended.member_a = member_of_[ended.a];
+    ended.member_b = member_of_[ended.b];
+    const Member &a = group_.members[ended.member_a], &b = group_.members[ended.member_b];
+    ended.arm = a.frame.rotate(bodies[ended.a].shape.vertices[ended.vertex]);
+    ended.normal = b.frame.rotate(bodies[ended.b].shape.faces[ended.face].normal);
+    ended.reach = a.frame.position + ended.arm - b.frame.position;
+    ended.approach = normalVelocity(ended, a, b);
+    ContactEvent contact = contactOf(ended, ContactKind::RestEnd);
+    contacts.push_back(contact);
+  }
+}
+
+}  // namespace block_world
