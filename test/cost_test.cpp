@@ -23,7 +23,8 @@ Scene makeLanes(const std::vector<double>& speeds)
 {
   std::vector<Block> blocks;
   for (std::size_t i = 0; i < speeds.size(); ++i)
-    blocks.push_back(moving(makeBox(std::string(1, static_cast<char>('a' + i)), { 1, 1 }, { 0, 5.0 * i }), { speeds[i], 0 }));
+    blocks.push_back(
+        moving(makeBox(std::string(1, static_cast<char>('a' + i)), { 1, 1 }, { 0, 5.0 * i }), { speeds[i], 0 }));
   Walls walls;
   walls.left = -1.0;
   walls.right = 1.0;
@@ -49,7 +50,8 @@ TEST(Cost, HitsOfABouncingBlock)
   }
 }
 
-// Each hit asks for the same, so the units are as 1 to 3; less than what a hit costs may be different at either end of the time.
+// Each hit asks for the same, so the units are as 1 to 3; less than what a hit costs may be different at either end of
+// the time.
 TEST(Cost, TheBusierOfTwoIslandsComesFirst)
 {
   World world(makeLanes({ 30.0, 90.0 }));
@@ -65,7 +67,8 @@ TEST(Cost, TheBusierOfTwoIslandsComesFirst)
   EXPECT_EQ(islands[0].share + islands[1].share, 1.0);
 }
 
-// Galperin's hits come by turns: the light block hits the heavy one, then the wall, and so on: all 314 are the light one's, half are the heavy one's.
+// Galperin's hits come by turns: the light block hits the heavy one, then the wall, and so on: all 314 are the light
+// one's, half are the heavy one's.
 TEST(Cost, DigitsOfPi)
 {
   World world(shipped("pi_collisions"));
@@ -198,7 +201,8 @@ TEST(Cost, InWords)
 /// A square in a slot of 1 nm to either side at 1e6 m/s: a hit every 2e-15 s, 500 within 1e-12 s.
 Scene makeStorm()
 {
-  Scene scene = makeScene(0.0, 1.0, { moving(makeBox("a", { 1, 1 }, { 0, 0 }), { 1e6, 0 }), makeBox("b", { 1, 1 }, { 0, 5 }) });
+  Scene scene =
+      makeScene(0.0, 1.0, { moving(makeBox("a", { 1, 1 }, { 0, 0 }), { 1e6, 0 }), makeBox("b", { 1, 1 }, { 0, 5 }) });
   scene.walls.left = -0.5 - 1e-9;
   scene.walls.right = 0.5 + 1e-9;
   scene.tolerance = 1e-12;
@@ -218,7 +222,8 @@ TEST(Stall, NamesTheIslandAndWhy)
   EXPECT_EQ(mode.find("stalled at 'a': 100 events within 1e-12 s, "), 0u) << mode;
   EXPECT_NE(mode.find(" % impacts"), std::string::npos) << mode;
   EXPECT_EQ(count(world, CostKind::Impact, 1), 0);
-  // Time stands still, asked again or not, and nothing is left out: not stalled at all, the same events lead to the same bits.
+  // Time stands still, asked again or not, and nothing is left out: not stalled at all, the same events lead to the
+  // same bits.
   const std::int64_t events = world.statistics().events;
   EXPECT_EQ(world.advance(goal), stop);
   EXPECT_EQ(world.statistics().events, events);
@@ -256,8 +261,8 @@ TEST(Stall, EndsWhereTheCourseIsChanged)
   EXPECT_LE(stop - Time(), 1e-12);
 }
 
-// 25 hits with their looks ahead within 1e-12 s are no 100 events, and commands, of which a controller may give any number at one instant, are
-// none.
+// 25 hits with their looks ahead within 1e-12 s are no 100 events, and commands, of which a controller may give any
+// number at one instant, are none.
 TEST(Stall, IsNoMatterOfCommands)
 {
   Scene scene = makeStorm();

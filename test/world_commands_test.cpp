@@ -365,7 +365,8 @@ TEST(Commands, DampersOfTheMouseInAnyOrder)
   // Nothing pulls and nothing moves: what is left after the damper's end is the time.
   damped.stiffness = 0.0;
   damped.duration = 0.5;
-  World world(makeScene(0.0, 1.0, { makeBox("a", { 1, 1 }, { 0, 5 }) }, onFloor())), still = World::restore(world.save());
+  World world(makeScene(0.0, 1.0, { makeBox("a", { 1, 1 }, { 0, 5 }) }, onFloor())),
+      still = World::restore(world.save());
   ASSERT_TRUE(world.apply(damped).ok);
   run(world, 1.0);
   run(still, 1.0);

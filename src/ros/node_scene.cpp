@@ -91,8 +91,8 @@ std::string Node::applyNow(const Command& command)
   return reason;
 }
 
-/// Another world in the place of this one. If this one is in the middle of events, what is not told of it yet never will be:
-/// a world that has got stuck can always be got rid of.
+/// Another world in the place of this one. If this one is in the middle of events, what is not told of it yet never
+/// will be: a world that has got stuck can always be got rid of.
 void Node::exchangeWorld(World world)
 {
   if (isSettled() && now_ns_ > state_ns_)

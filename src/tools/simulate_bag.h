@@ -19,8 +19,8 @@ public:
   BagOutput(const std::string& path, World& world);
   ~BagOutput();
 
-  /// Advances the world to a time, calling `busy` now and then, and writes the states that are due on the way; returns the
-  /// contacts met.
+  /// Advances the world to a time, calling `busy` now and then, and writes the states that are due on the way; returns
+  /// the contacts met.
   std::vector<ContactEvent> advance(std::int64_t target, const std::function<void()>& busy);
 
   /// Writes the last state. Throws std::runtime_error where the bag could not be written.

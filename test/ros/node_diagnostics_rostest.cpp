@@ -97,7 +97,8 @@ TEST_F(NodeDiagnostics, tellThePaceAndTheEvents)
   const std::string slowest = value(pace, "slowest island");
   double rate = 0.0;
   int share = 0;
-  EXPECT_EQ(std::sscanf(slowest.c_str(), "block1: 100 %% of the computing; %d %% impacts, %lf a second", &share, &rate), 2)
+  EXPECT_EQ(std::sscanf(slowest.c_str(), "block1: 100 %% of the computing; %d %% impacts, %lf a second", &share, &rate),
+            2)
       << slowest;
   EXPECT_NEAR(rate, 50.0, 1.0) << slowest;
   const DiagnosticStatus& accuracy = part(message, "accuracy");
@@ -127,12 +128,14 @@ TEST_F(NodeDiagnostics, warnWhereTimeFallsBehind)
   EXPECT_EQ(part(next(), "pace").level, DiagnosticStatus::OK) << "what is over is no warning any more";
 }
 
-// A slot of 2 nm at 1e6 m/s: 500 hits within 1e-12 s, of which this world, restored as it is, takes no more than 100 for true.
+// A slot of 2 nm at 1e6 m/s: 500 hits within 1e-12 s, of which this world, restored as it is, takes no more than 100
+// for true.
 TEST_F(NodeDiagnostics, failWhereTimeStandsStill)
 {
   World world(loadSceneText("tolerance: 1.0e-12\nwalls: {left: -0.500000001, right: 0.500000001}\n"
                             "blocks: [{name: rattler, size: [1, 1], pose: [0, 0, 0], velocity: [1.0e+6, 0, 0]},\n"
-                            "  {name: calm, size: [1, 1], pose: [0, 5, 0]}]", "storm"));
+                            "  {name: calm, size: [1, 1], pose: [0, 5, 0]}]",
+                            "storm"));
   world.stallAfter(100);
   const std::string path = "/tmp/node_diagnostics_" + std::to_string(getpid());
   std::ofstream(path, std::ios::binary) << world.save();
