@@ -7,6 +7,15 @@
 
 namespace block_world
 {
+/// Rounding of the acceleration g'' of a gap: of the free accelerations, and of turning, u^2 / r at the speed u by which the bodies pass each other.
+double ContactGroup::accelerationNoise(const Touch& t) const
+{
+  const Member &a = members[t.member_a], &b = members[t.member_b];
+  const double radius = std::min(t.arm.norm(), t.reach.norm());
+  const double u = (a.velocity - b.velocity).norm() + std::abs(a.omega) * t.arm.norm() + std::abs(b.omega) * t.reach.norm();
+  return 1e-14 * acceleration_scale_ + 1e-15 * u * u / radius;
+}
+
 /// Which of the candidates the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces; the
 /// search starts from those that were pressed last.
 void ContactGroup::solveRest(const std::vector<int>& candidates)
@@ -20,13 +29,13 @@ void ContactGroup::solveRest(const std::vector<int>& candidates)
   pressed_.clear();
   b_.clear();
   // A free acceleration below the rounding of the accelerations presses nothing.
-  double strongest = 0.0;
+  bool presses = false;
   for (int i : candidates)
   {
     b_.push_back(normalAcceleration(touches[i], members[touches[i].member_a], members[touches[i].member_b]));
-    strongest = std::max(strongest, -b_.back());
+    presses = presses || -b_.back() > accelerationNoise(touches[i]);
   }
-  if (strongest <= 1e-14 * acceleration_scale_)
+  if (!presses)
     return;
   solver_.solve(gram_, candidates, b_, guess_);
   for (int k : solver_.support())
@@ -36,36 +45,11 @@ void ContactGroup::solveRest(const std::vector<int>& candidates)
   }
 }
 
-/// Appends the last of the rows to the factor of the others. Refuses one that depends on them.
-bool ContactGroup::appendRow(const std::vector<int>& rows)
-{
-  row_.resize(rows.size());
-  for (std::size_t j = 0; j < rows.size(); ++j)
-    row_[j] = gram_(rows.back(), rows[j]);
-  return factor_.append(row_.data());
-}
-
-/// Cholesky factor of the pressed rows; those that depend on the former ones by rounding are dropped.
+/// Drops those pressed rows that depend on the former ones by rounding: none, as they were independent in the order in which they were found.
 void ContactGroup::factorPressed()
 {
-  factor_.clear();
-  stopped_.swap(pressed_);
-  pressed_.clear();
-  for (int i : stopped_)
-  {
-    pressed_.push_back(i);
-    if (!appendRow(pressed_))
-      pressed_.pop_back();
-  }
-}
-
-/// The impulses at the pressed touches that make their velocities vanish: A_PP j = -w_P.
-void ContactGroup::solveHolds()
-{
-  holds_.resize(pressed_.size());
-  for (std::size_t k = 0; k < pressed_.size(); ++k)
-    holds_[k] = -velocityOf(pressed_[k]);
-  factor_.solve(holds_.data());
+  independent(pressed_, kTrusted);
+  pressed_ = independent_;
 }
 
 /// The impulses by which the pressed touches end at rest and no other closed one approaches: w_P + (A j)_P = 0; j_O >= 0, w_O + (A j)_O >= 0,
@@ -90,21 +74,12 @@ void ContactGroup::solvePlan()
 /// By member, the speed that the plan takes or gives, of rotation at the radius of gyration: |dv|^2 + (I/m) domega^2.
 void ContactGroup::plannedSpeeds()
 {
-  changes_.assign(members.size(), Change());
-  for (std::size_t k = 0; k < plan_.size(); ++k)
-  {
-    const double impulse = k < holds_.size() ? holds_[k] : pushes_[k - holds_.size()];
-    const Touch& t = touches[plan_[k]];
-    const Member &a = members[t.member_a], &b = members[t.member_b];
-    changes_[t.member_a].velocity += impulse * a.inverse_mass * t.normal;
-    changes_[t.member_a].omega += impulse * a.inverse_inertia * cross(t.arm, t.normal);
-    changes_[t.member_b].velocity -= impulse * b.inverse_mass * t.normal;
-    changes_[t.member_b].omega -= impulse * b.inverse_inertia * cross(t.reach, t.normal);
-  }
+  sumChanges(plan_, solver_.value(), changes_);
+  speeds_.assign(members.size(), 0.0);
   for (std::size_t m = 0; m < members.size(); ++m)
     if (members[m].inverse_mass > 0.0)
-      changes_[m].speed = std::sqrt(changes_[m].velocity.squaredNorm() +
-                                    members[m].inverse_mass / members[m].inverse_inertia * changes_[m].omega * changes_[m].omega);
+      speeds_[m] = std::sqrt(changes_[m].velocity.squaredNorm() +
+                             members[m].inverse_mass / members[m].inverse_inertia * changes_[m].omega * changes_[m].omega);
 }
 
 /// Position of the pressed touch that can least be held, -1 if all can.
@@ -120,7 +95,7 @@ int ContactGroup::leastHeld()
   for (std::size_t k = 0; k < pressed_.size(); ++k)
   {
     const Touch& t = touches[pressed_[k]];
-    const double speed = std::max(changes_[t.member_a].speed, changes_[t.member_b].speed);
+    const double speed = std::max(speeds_[t.member_a], speeds_[t.member_b]);
     const double over = std::abs(holds_[k]) * speed / (8.0 * depth_[pressed_[k]] * t.force);
     if (speed > noise_ && over > most)
     {
@@ -155,48 +130,20 @@ void ContactGroup::planCapture()
   }
 }
 
-/// Gives the impulses of the plan; the pressed touches end at zero velocity exactly. Returns the energy lost.
-double ContactGroup::carryOut()
+/// The pressed touches end at zero velocity, and so do the others that the plan pushes.
+void ContactGroup::carryOut()
 {
-  before_.resize(touches.size());
-  given_.assign(touches.size(), 0.0);
-  for (std::size_t i = 0; i < touches.size(); ++i)
-    before_[i] = velocityOf(static_cast<int>(i));
-  const auto give = [this](int i, double impulse) {
-    push(i, impulse);
-    given_[i] += impulse;
-  };
+  stopped_ = pressed_;
   for (std::size_t k = 0; k < others_.size(); ++k)
-    if (pushes_[k] != 0.0)
-      give(others_[k], pushes_[k]);
-  for (std::size_t k = 0; k < pressed_.size(); ++k)
-    give(pressed_[k], holds_[k]);
-  factorPressed();
-  solveHolds();  // what rounding left
-  for (std::size_t k = 0; k < pressed_.size(); ++k)
-    give(pressed_[k], holds_[k]);
-  double loss = 0.0;
-  for (std::size_t i = 0; i < touches.size(); ++i)
-    if (given_[i] != 0.0)
-    {
-      touches[i].capture += given_[i];
-      loss -= 0.5 * given_[i] * (before_[i] + velocityOf(static_cast<int>(i)));
-    }
-  return loss;
+    if (pushes_[k] > 0.0)
+      stopped_.push_back(others_[k]);
+  bringToRestWithNeighbours(stopped_);
 }
 
-double ContactGroup::holdPressed()
+/// Carries out the plan and makes active what is pressed at the velocities that come of it.
+void ContactGroup::capture()
 {
-  factorPressed();
-  others_.clear();
-  solveHolds();
-  return carryOut();
-}
-
-/// Carries out the plan and makes active what is pressed at the velocities that come of it. Returns the energy lost.
-double ContactGroup::capture()
-{
-  double loss = carryOut();
+  carryOut();
   const std::vector<int> held = pressed_;
   candidates_.clear();
   for (int i = 0; i < static_cast<int>(touches.size()); ++i)
@@ -206,23 +153,28 @@ double ContactGroup::capture()
       candidates_.push_back(i);
   }
   solveRest(candidates_);
+  factorPressed();
   if (pressed_ != held)
-    loss += holdPressed();
+  {
+    others_.clear();
+    carryOut();
+  }
   for (int i : pressed_)
     touches[i].active = true;
-  return loss;
 }
 
 double ContactGroup::holdActive()
 {
   prepare();
+  const std::vector<Twist> start = velocities();
   pressed_.clear();
+  others_.clear();
   for (std::size_t i = 0; i < touches.size(); ++i)
     if (touches[i].active)
       pressed_.push_back(static_cast<int>(i));
-  const double loss = holdPressed();
+  carryOut();
   clean();
-  return loss;
+  return lossSince(start);
 }
 
 }  // namespace block_world

@@ -193,10 +193,14 @@ bool Complementarity::enter(int i)
   }
   x_.assign(row_.begin(), row_.begin() + n);
   factor_.solve(x_.data());  // z_P = -A_PP^-1 A_Pi
+  // What is small against the others is zero but for rounding: in a jam, whose loads may grow together without end, it would stop them far out.
+  double largest = 1.0;
+  for (int k = 0; k < n; ++k)
+    largest = std::max(largest, std::abs(x_[k]));
   double step = std::numeric_limits<double>::infinity();
   int blocking = -1;
   for (int k = held_; k < n; ++k)
-    if (x_[k] > 0.0 && l_[passive_[k]] / x_[k] < step)
+    if (x_[k] > 1e-8 * largest && l_[passive_[k]] / x_[k] < step)
     {
       step = l_[passive_[k]] / x_[k];
       blocking = k;
@@ -215,7 +219,7 @@ bool Complementarity::enter(int i)
   passive_.push_back(i);
   state_[i] = 1;
   refactor(blocking);
-  return state_[i] == 1;
+  return true;
 }
 
 void Complementarity::start(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
@@ -315,7 +319,7 @@ void Complementarity::search(double noise)
     if (enter(best))
     {
       settle();
-      if (state_[best] == 0)
+      if (state_[best] != 1)
         state_[best] = 2;  // entered and left at once: rounding
       else
         for (int i = held_; i < n; ++i)

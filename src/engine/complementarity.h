@@ -4,6 +4,10 @@
 
 namespace block_world
 {
+/// Share of its diagonal below which a pivot says that its row depends on others: such rows carry nothing. Of rows that were independent in one order
+/// the pivots in another are smaller, but not by more than the second.
+constexpr double kDependent = 1e-11, kTrusted = 1e-14;
+
 /// Cholesky factor of a growing symmetric positive definite matrix, row by row. Zeros at the beginning of a row stay zero in the factor and are
 /// skipped (skyline storage; George & Liu 1981, ch. 4): bodies that touch only their neighbours make narrow rows.
 class Cholesky
@@ -19,7 +23,7 @@ public:
   }
   /// Appends row[0..size()] (the last is the diagonal). Refuses, returning false, a row that depends on the former ones: one whose pivot falls
   /// below that share of its diagonal, or that would magnify rounding by more than its inverse in the loads of former ones.
-  bool append(const double* row, double share = 1e-11);
+  bool append(const double* row, double share = kDependent);
   /// Keeps the first rows only.
   void truncate(int size)
   {

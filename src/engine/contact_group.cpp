@@ -102,68 +102,62 @@ bool ContactGroup::anyElastic(const std::vector<int>& rows) const
 }
 
 /// One stage of reflection (Smith et al. 2012, with the elasticity in every stage): l minimises the kinetic energy after an inelastic impact of the
-/// approaching touches; the impulse is (1 + e) l. For one touch this is equation (11). Returns the energy lost.
-double ContactGroup::reflect(const std::vector<int>& rows)
+/// approaching touches; the impulse is (1 + e) l. For one touch this is equation (11).
+///
+/// With c = M^-1 J'l the velocities v end at v + c inelastically, at v + c + z with z = M^-1 J'E l elastically. No rounding of l adds energy: c is made
+/// orthogonal to v + c in the mass metric, and z not longer than keeps the energy.
+void ContactGroup::reflect(const std::vector<int>& rows)
 {
   b_.clear();
   for (int i : rows)
     b_.push_back(velocityOf(i));
   solver_.solve(gram_, rows, b_);
-  const std::vector<double>& l = solver_.value();
-
-  // With different elasticities dKE = -1/2 l'(A - E A E) l may be positive: then E is scaled so that it is zero.
-  double plain = 0.0, elastic = 0.0;
-  bool mixed = false;
-  for (int i : rows)
-    mixed = mixed || touches[i].elasticity != touches[rows.front()].elasticity;
-  double share = 1.0;
-  if (mixed)
-  {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      for (std::size_t j = 0; j < rows.size(); ++j)
-      {
-        const double product = l[i] * l[j] * gram_(rows[i], rows[j]);
-        plain += product;
-        elastic += product * touches[rows[i]].elasticity * touches[rows[j]].elasticity;
-      }
-    if (elastic > plain)
-      share = std::sqrt(plain / elastic);
-  }
-
-  double loss = 0.0;
+  impulses_ = solver_.value();
+  const double share = shareOfProjection(rows), rebound = shareOfRebound(rows, share);
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
-    if (l[k] == 0.0)
+    const double impulse = share * (1.0 + rebound * touches[rows[k]].elasticity) * impulses_[k];
+    if (impulse == 0.0)
       continue;
-    const double impulse = (1.0 + share * touches[rows[k]].elasticity) * l[k];
     touches[rows[k]].impulse += impulse;
     push(rows[k], impulse);
-    loss -= 0.5 * impulse * b_[k];
   }
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (l[k] != 0.0)
-      loss -= 0.5 * (1.0 + share * touches[rows[k]].elasticity) * l[k] * velocityOf(rows[k]);
-  return loss;
 }
 
-/// Inelastic end: the named touches stop approaching, min |dv| in the mass metric with w >= 0. Returns the energy lost.
-double ContactGroup::stop(const std::vector<int>& rows)
+/// s with (v + s c).M c = 0: 1 but for rounding, which large impulses that all but cancel can make large. c is left in changes_.
+double ContactGroup::shareOfProjection(const std::vector<int>& rows)
+{
+  sumChanges(rows, impulses_, changes_);
+  const double square = product(changes_, changes_), share = square > 0.0 ? -product(velocities(), changes_) / square : 1.0;
+  return std::abs(share - 1.0) > 1e-12 ? std::max(0.0, share) : 1.0;
+}
+
+/// s <= 1 with |v + c + s z| <= |v| in the mass metric; 1 but where different elasticities meet.
+double ContactGroup::shareOfRebound(const std::vector<int>& rows, double projection)
+{
+  const double e = touches[rows.front()].elasticity;
+  if (std::all_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity == e; }))
+    return 1.0;
+  row_.clear();
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    row_.push_back(projection * touches[rows[k]].elasticity * impulses_[k]);
+  sumChanges(rows, row_, rebound_);
+  const double square = product(rebound_, rebound_), given = projection * projection * product(changes_, changes_),
+               along = product(velocities(), rebound_) + projection * product(changes_, rebound_);
+  return square > 0.0 ? std::min(1.0, (std::sqrt(along * along + square * given) - along) / square) : 1.0;
+}
+
+/// Inelastic end: no touch approaches any more, min |dv| in the mass metric with w >= 0.
+void ContactGroup::stop()
 {
   b_.clear();
-  for (int i : rows)
+  for (int i : all_)
     b_.push_back(velocityOf(i));
-  solver_.solve(gram_, rows, b_);
-  const std::vector<double>& l = solver_.value();
-  for (std::size_t k = 0; k < rows.size(); ++k)
-    if (l[k] != 0.0)
-      push(rows[k], l[k]);
-  double loss = 0.0;
-  for (std::size_t k = 0; k < rows.size(); ++k)
-  {
-    touches[rows[k]].capture += l[k];
-    loss -= 0.5 * l[k] * (b_[k] + velocityOf(rows[k]));
-  }
-  return loss;
+  solver_.solve(gram_, all_, b_);
+  stopped_.clear();
+  for (int k : solver_.support())
+    stopped_.push_back(all_[k]);
+  bringToRestWithNeighbours(stopped_);
 }
 
 /// Gordan's alternative: no velocity opens all these touches exactly if some l >= 0, sum l = 1, has l'A l = 0. With c = (1, ..., 1),
@@ -207,7 +201,7 @@ double ContactGroup::collide(const ContactScales& scales)
     if (meets_[i])
       all_.push_back(i);
 
-  double loss = 0.0;
+  const std::vector<Twist> start = velocities();
   bool planned = false;
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends
   // inelastically.
@@ -230,16 +224,19 @@ double ContactGroup::collide(const ContactScales& scales)
       if (planned)
         break;
     }
-    loss += anyElastic(fast_) ? reflect(fast_) : stop(all_);
+    if (anyElastic(fast_))
+      reflect(fast_);
+    else
+      stop();
   }
   if (!planned)
   {
-    loss += stop(all_);
+    stop();
     planCapture();
   }
-  loss += capture();
+  capture();
   clean();
-  return loss;
+  return lossSince(start);
 }
 
 void ContactGroup::place(Member& member, const Vec2& shift, double turn)
@@ -256,23 +253,27 @@ bool ContactGroup::struck() const
 
 double ContactGroup::settlePositions(double resolution, double& loss)
 {
-  // min |dq| in the mass metric with gap + J dq = 0.
+  // min |dq| in the mass metric with gap + J dq = 0. A gap that takes far larger moves to close, on a short lever, stays as it is.
+  constexpr double kShortLever = 1e-6;  // square of the share of the others' lengths
   pressed_.clear();
-  double lowest = 0.0;
   for (std::size_t i = 0; i < touches.size(); ++i)
   {
     const Touch& t = touches[i];
-    if (t.corner || !(t.active || std::max(t.gap, t.separation) < -resolution))
-      continue;
-    pressed_.push_back(static_cast<int>(i));
-    lowest = std::max(lowest, std::abs(t.gap));
+    if (!t.corner && (t.active || std::max(t.gap, t.separation) < -resolution))
+      pressed_.push_back(static_cast<int>(i));
   }
-  if (lowest == 0.0)
+  const auto open = [&](int i) { return touches[i].gap != 0.0; };
+  if (std::none_of(pressed_.begin(), pressed_.end(), open))
     return 0.0;
-  factorPressed();
+  independent(pressed_, kShortLever);
+  pressed_ = independent_;
+  double lowest = 0.0;
   solution_.resize(pressed_.size());
   for (std::size_t k = 0; k < pressed_.size(); ++k)
+  {
+    lowest = std::max(lowest, std::abs(touches[pressed_[k]].gap));
     solution_[k] = -touches[pressed_[k]].gap;
+  }
   factor_.solve(solution_.data());
 
   struct Move

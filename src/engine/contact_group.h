@@ -36,8 +36,8 @@ public:
   /// Rows and Gram matrix A = J M^-1 J^T of the present touches, their approach velocities.
   void prepare();
 
-  /// Impacts by staged reflections, then capture of the slow touches that forces press together. Returns the kinetic energy lost,
-  /// -1/2 sum j (w- + w+). Fills in impulse, capture, force and active of the touches.
+  /// Impacts by staged reflections, then capture of the slow touches that forces press together. Returns the kinetic energy lost.
+  /// Fills in impulse, capture, force and active of the touches.
   double collide(const ContactScales& scales);
 
   /// Whether the last collide pushed anything.
@@ -62,40 +62,58 @@ public:
   }
 
 private:
+  struct Twist
+  {
+    Vec2 velocity = Vec2::Zero();
+    double omega = 0.0;
+  };
+
   double velocityOf(int i) const;
   void push(int i, double impulse);
   void scale(const ContactScales& scales);
   void findSimultaneous();
-  double reflect(const std::vector<int>& rows);
-  double stop(const std::vector<int>& rows);
+  void reflect(const std::vector<int>& rows);
+  double shareOfProjection(const std::vector<int>& rows);
+  double shareOfRebound(const std::vector<int>& rows, double projection);
+  void stop();
   void clean();
   bool anyElastic(const std::vector<int>& rows) const;
   bool isLocked(const std::vector<int>& rows);
 
   // capture.cpp
+  double accelerationNoise(const Touch& touch) const;
   void planCapture();
   void solveRest(const std::vector<int>& candidates);
-  bool appendRow(const std::vector<int>& rows);
   void factorPressed();
-  void solveHolds();
   void solvePlan();
   void plannedSpeeds();
   int leastHeld();
-  double carryOut();
-  double holdPressed();
-  double capture();
+  void carryOut();
+  void capture();
+
+  // standstill.cpp
+  void independent(const std::vector<int>& rows, double share);
+  void sumChanges(const std::vector<int>& rows, const std::vector<double>& impulses, std::vector<Twist>& changes) const;
+  double product(const std::vector<Twist>& p, const std::vector<Twist>& q) const;
+  const std::vector<Twist>& velocities();
+  double lossSince(const std::vector<Twist>& start);
+  bool takesEnergy();
+  bool atRest(const std::vector<int>& rows) const;
+  void bringToRest(const std::vector<int>& rows);
+  void projectOut(const std::vector<int>& rows);
+  void bringToRestWithNeighbours(std::vector<int>& rows);
 
   void place(Member& member, const Vec2& shift, double turn);
 
   SymmetricMatrix gram_;
   Complementarity solver_;
   Cholesky factor_;
-  std::vector<int> all_, fast_, candidates_, pressed_, others_, plan_, stopped_, guess_;
+  std::vector<int> all_, fast_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_;
   std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
   std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
   std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest
   std::vector<double> pushes_;      ///< N s, impulses that keep the others from approaching then
-  std::vector<double> b_, before_, given_, row_, solution_;
+  std::vector<double> b_, row_, solution_, impulses_;
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
   struct Size
@@ -103,13 +121,8 @@ private:
     double x = 0.0, y = 0.0, omega = 0.0;
   };
   std::vector<Size> sizes_;
-  /// Of a member by the plan.
-  struct Change
-  {
-    Vec2 velocity = Vec2::Zero();
-    double omega = 0.0, speed = 0.0;
-  };
-  std::vector<Change> changes_;
+  std::vector<Twist> changes_, rebound_, velocities_;  ///< by member
+  std::vector<double> speeds_;                         ///< m/s, by member: what the plan changes
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
 };
 

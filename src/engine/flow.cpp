@@ -408,7 +408,7 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
     {
       for (int j = 0; j <= i; ++j)
         gram_(i, j) = gram_(j, i) = row_[j] = contactGram(rests[i].touch, rests[j].touch, members);
-      factor_.append(row_.data());
+      factor_.append(row_.data(), kTrusted);
     }
     contactGeometry(0);
   }
