@@ -7,13 +7,13 @@
 
 namespace block_world
 {
-/// Rounding of the acceleration g'' of a gap: of the free accelerations, and of turning, u^2 / r at the speed u by which the bodies pass each other.
+/// Rounding of the acceleration g'' of a gap: of the free accelerations, and of the term 2 omega u at the speed u by which the bodies pass each other.
 double ContactGroup::accelerationNoise(const Touch& t) const
 {
   const Member &a = members[t.member_a], &b = members[t.member_b];
   const double radius = std::min(t.arm.norm(), t.reach.norm());
   const double u = (a.velocity - b.velocity).norm() + std::abs(a.omega) * t.arm.norm() + std::abs(b.omega) * t.reach.norm();
-  return 1e-14 * acceleration_scale_ + 1e-15 * u * u / radius;
+  return 1e-14 * acceleration_scale_ + 2.0 * u * noise_ / radius;
 }
 
 /// Which of the candidates the free accelerations press together: 0 <= f, A f + b >= 0, complementary. Fills in pressed_ and the forces; the

@@ -134,6 +134,7 @@ void ContactGroup::projectOut(const std::vector<int>& rows)
     columns.col(k).array() *= weight.array();
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(std::sqrt(kDependent));
   const int rank = static_cast<int>(qr.rank());
   Eigen::VectorXd along = qr.householderQ().transpose() * velocity;
   // Impulses that almost cancel say nothing: the columns that the others nearly give get none.
