@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace reference
+namespace block_world::speed
 {
 namespace
 {
@@ -69,7 +69,7 @@ bool farApart(const Body& a, const Body& b)
   return (a.position - b.position).norm() > a.half.norm() + b.half.norm();
 }
 
-void addWalls(const std::vector<Body>& bodies, const block_world::Walls& walls, int body, std::vector<Touch>& touches)
+void addWalls(const std::vector<Body>& bodies, const Walls& walls, int body, std::vector<Touch>& touches)
 {
   if (walls.left)
     touches.push_back(deepest(bodies, body, wall, Vector::UnitX(), *walls.left));
@@ -82,7 +82,7 @@ void addWalls(const std::vector<Body>& bodies, const block_world::Walls& walls, 
 }
 
 /// All pairs that can touch, smallest gap first.
-std::vector<Touch> touchesOf(const std::vector<Body>& bodies, const block_world::Walls& walls)
+std::vector<Touch> touchesOf(const std::vector<Body>& bodies, const Walls& walls)
 {
   std::vector<Touch> touches;
   const int count = static_cast<int>(bodies.size());
@@ -97,7 +97,7 @@ std::vector<Touch> touchesOf(const std::vector<Body>& bodies, const block_world:
   return touches;
 }
 
-bool overlapping(const std::vector<Body>& bodies, const block_world::Walls& walls)
+bool overlapping(const std::vector<Body>& bodies, const Walls& walls)
 {
   const std::vector<Touch> touches = touchesOf(bodies, walls);
   return !touches.empty() && touches.front().gap < 0;
@@ -131,7 +131,7 @@ void push(Body& body, const Touch& touch, Real impulse)
   body.omega += impulse / body.inertia * perpendicular(touch.point - body.position).dot(touch.normal);
 }
 
-void collide(std::vector<Body>& bodies, const block_world::Scene& scene)
+void collide(std::vector<Body>& bodies, const Scene& scene)
 {
   const std::vector<Touch> touches = touchesOf(bodies, scene.walls);
   const Touch& touch = touches.front();
@@ -153,7 +153,7 @@ void collide(std::vector<Body>& bodies, const block_world::Scene& scene)
 }
 
 /// The longest span found free of overlap, between one that is free and one that overlaps.
-Real spanToImpact(const std::vector<Body>& bodies, const block_world::Walls& walls, Real free, Real overlap)
+Real spanToImpact(const std::vector<Body>& bodies, const Walls& walls, Real free, Real overlap)
 {
   for (int i = 0; i < 80; ++i)
   {
@@ -163,73 +163,60 @@ Real spanToImpact(const std::vector<Body>& bodies, const block_world::Walls& wal
   return free;
 }
 
+/// Moves on by a span from the instant of the last impact on: samples are taken from there, so that rounding does not
+/// add up.
+struct Flight
+{
+  std::vector<Body> bodies;  ///< at the last impact
+  Real flown = 0;
+};
+
+/// Until `span` after the last impact, in samples of at most scan_step; true where an impact came before, which is done
+/// then.
+bool flyTo(Flight& flight, Real span, const Scene& scene, Real scan_step)
+{
+  while (flight.flown < span)
+  {
+    const Real next = std::min(flight.flown + scan_step, span);
+    if (overlapping(moved(flight.bodies, next), scene.walls))
+    {
+      flight.flown = spanToImpact(flight.bodies, scene.walls, flight.flown, next);
+      flight.bodies = moved(std::move(flight.bodies), flight.flown);
+      collide(flight.bodies, scene);
+      return true;
+    }
+    flight.flown = next;
+  }
+  return false;
+}
+
 }  // namespace
 
-std::vector<Body> start(const block_world::Scene& scene)
+Path collisions(const Scene& scene, int frames, Real scan_step)
 {
-  std::vector<Body> bodies;
-  for (const block_world::Block& block : scene.blocks)
+  Path path;
+  Flight flight{ start(scene) };
+  Real last_impact = 0;
+  for (int frame = 0; frame <= frames; ++frame)
   {
-    if (!block.size || block.fixed)
-      throw std::runtime_error("reference: only movable rectangles");
-    Body body;
-    body.mass = block.mass;
-    body.half = block.size->cast<Real>() / 2;
-    body.inertia = body.mass * body.half.squaredNorm() / 3;
-    body.position = block.position.cast<Real>();
-    body.velocity = block.velocity.cast<Real>();
-    body.angle = block.angle;
-    body.omega = block.omega;
-    bodies.push_back(body);
-  }
-  return bodies;
-}
-
-Vector corner(const Body& body, int index)
-{
-  const Real x = index == 0 || index == 3 ? -1 : 1, y = index < 2 ? -1 : 1;
-  return body.position + rotate(body.half.cwiseProduct(Vector(x, y)), body.angle);
-}
-
-std::vector<Body> flight(const block_world::Scene& scene, Real time)
-{
-  std::vector<Body> bodies = start(scene);
-  const Vector gravity(0, -static_cast<Real>(scene.gravity));
-  for (Body& body : bodies)
-  {
-    // v' = gravity - k v and omega' = -l omega, with final velocity gravity / k
-    const Real k = static_cast<Real>(scene.damping) / body.mass;
-    const Real l = static_cast<Real>(scene.damping) * static_cast<Real>(scene.rotational_damping_ratio) / body.inertia;
-    const Vector final_velocity = gravity / k;
-    const Vector excess = body.velocity - final_velocity;
-    body.position += final_velocity * time - excess * std::expm1(-k * time) / k;
-    body.velocity = final_velocity + excess * std::exp(-k * time);
-    body.angle -= body.omega * std::expm1(-l * time) / l;
-    body.omega *= std::exp(-l * time);
-  }
-  return bodies;
-}
-
-std::vector<Body> collisions(const block_world::Scene& scene, Real time, Real scan_step)
-{
-  // Every sample is taken from the last impact, so that rounding does not add up.
-  std::vector<Body> bodies = start(scene);
-  Real left = time, flown = 0;
-  while (flown < left)
-  {
-    const Real next = std::min(flown + scan_step, left);
-    if (overlapping(moved(bodies, next), scene.walls))
+    const Real time = frameTime(frame);
+    while (flyTo(flight, time - last_impact, scene, scan_step))
     {
-      const Real span = spanToImpact(bodies, scene.walls, flown, next);
-      bodies = moved(std::move(bodies), span);
-      collide(bodies, scene);
-      left -= span;
-      flown = 0;
+      last_impact += flight.flown;
+      flight.flown = 0;
     }
-    else
-      flown = next;
+    path.push_back(moved(flight.bodies, time - last_impact));
   }
-  return moved(std::move(bodies), left);
+  return path;
 }
 
-}  // namespace reference
+Path trustedCollisions(const Scene& scene, int frames)
+{
+  const Path path = collisions(scene, frames, 1.0L / 1000), other = collisions(scene, frames, 1.0L / 1700);
+  for (std::size_t frame = 0; frame < path.size(); ++frame)
+    if (cornerDistance(path[frame], other[frame]) > 1e-13L)
+      throw std::runtime_error(scene.name + ": the reference depends on its scan step");
+  return path;
+}
+
+}  // namespace block_world::speed
