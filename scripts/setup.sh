@@ -123,6 +123,18 @@ install_missing()
   getent hosts localhost >/dev/null || as_root tee -a /etc/hosts <<<"127.0.0.1 localhost" >/dev/null
 }
 
+# Other physics engines that speed_against_error measures us against. Not needed by anything else, so not in package.xml.
+install_peers()
+{
+  local package missing=()
+  for package in libbox2d-dev libchipmunk-dev libbullet-dev libode-dev "$@"; do
+    dpkg -s "$package" >/dev/null 2>&1 || missing+=("$package")
+  done
+  [ ${#missing[@]} -gt 0 ] || return 0
+  say "installing ${missing[*]}"
+  quietly install-peers install_packages "${missing[@]}"
+}
+
 # build [TARGET...]
 build()
 {

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <ostream>
 
+#include "speed/features.h"
 #include "speed/options.h"
 #include "speed/report.h"
 #include "speed/scenes.h"
@@ -49,13 +50,18 @@ std::vector<Family> chosen(const Options& options)
   return all;
 }
 
-void write(const std::vector<CaseResults>& all, const std::vector<Goal>& goals, std::ostream& out)
+void write(const std::vector<CaseResults>& all, const std::vector<Goal>& goals,
+           const std::vector<FeatureCost>& features, std::ostream& out)
 {
   out << "Each cell: error @ CPU time per simulated second, at the engine's default and, below, with the least error "
          "found.\n\n";
   writeTable(all, out);
   out << '\n';
+  writeCollisions(all, out);
+  out << "\nGoals:\n\n";
   writeGoals(goals, out);
+  out << "\nWhat it costs block_world to model more, CPU time per simulated second:\n\n";
+  writeFeatures(features, out);
 }
 
 int runCommand(int argc, char** argv)
@@ -86,7 +92,7 @@ int runCommand(int argc, char** argv)
     writeCsv(all.back(), csv);
   }
   const std::vector<Goal> found = goals(all);
-  write(all, found, options->report.empty() ? std::cout : report);
+  write(all, found, featureCosts(options->plan.repeats), options->report.empty() ? std::cout : report);
   const bool met = std::all_of(found.begin(), found.end(), [](const Goal& goal) { return goal.met; });
   return options->check && !met ? failed : done;
 }

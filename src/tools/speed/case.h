@@ -16,7 +16,7 @@ struct Measure
 {
   std::string name, unit;
   std::function<double(const Run&)> of;
-  std::optional<double> goal;  ///< what ours shall not exceed
+  std::optional<double> goal = std::nullopt;  ///< what ours shall not exceed
 };
 
 /// A scene, or many alike, with what is measured on it.
@@ -29,6 +29,7 @@ struct Case
   double cheaper =
       0.0;             ///< how many times below the cheapest peer at its default our cost shall be; 0: nothing is asked
   bool rests = false;  ///< the cheapest peer is looked for among those with sleeping, too
+  bool counts_collisions = false;  ///< what a collision costs is told
 };
 
 /// Largest distance of a corner from where it belongs, over all frames from first on.

@@ -33,7 +33,7 @@ public:
 struct Setting
 {
   std::string label;
-  int steps = 1;           ///< per frame
+  int steps = 1;           ///< per frame; ours, which has none, stops as often
   int iterations = 0;      ///< 0: the engine's solver does not iterate
   bool best = false;       ///< documented settings for accuracy, instead of those shipped
   bool sleeping = false;   ///< bodies at rest are taken out of the simulation

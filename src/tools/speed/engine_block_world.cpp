@@ -10,16 +10,19 @@ namespace
 class BlockWorld : public Simulation
 {
 public:
-  explicit BlockWorld(const Scene& scene) : world_(scene)
+  BlockWorld(const Scene& scene, int samples) : samples_(samples), rate_(frame_rate * samples), world_(scene)
   {
   }
 
   void nextFrame() override
   {
-    ++frame_;
     // Sixtieths of a second are no whole nanoseconds, which would cost 3e-10 s.
-    world_.advance(Time::fromNanoseconds(frame_ / frame_rate * 1000000000) +
-                   static_cast<double>(frame_ % frame_rate) / frame_rate);
+    for (int i = 0; i < samples_; ++i)
+    {
+      ++sample_;
+      world_.advance(Time::fromNanoseconds(sample_ / rate_ * 1000000000) +
+                     static_cast<double>(sample_ % rate_) / static_cast<double>(rate_));
+    }
   }
 
   MotionState state(int block) const override
@@ -33,8 +36,8 @@ public:
   }
 
 private:
+  std::int64_t samples_, rate_, sample_ = 0;
   World world_;
-  std::int64_t frame_ = 0;
 };
 
 std::unique_ptr<Simulation> build(const Scene& scene, const Setting& setting)
@@ -45,7 +48,7 @@ std::unique_ptr<Simulation> build(const Scene& scene, const Setting& setting)
     smallest = std::min(smallest, block.size->minCoeff());
   Scene with_tolerance = scene;
   with_tolerance.tolerance = std::min(setting.tolerance, 0.01 * smallest);
-  return std::make_unique<BlockWorld>(with_tolerance);
+  return std::make_unique<BlockWorld>(with_tolerance, setting.steps);
 }
 
 }  // namespace

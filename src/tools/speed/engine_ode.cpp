@@ -24,6 +24,7 @@ public:
     , contacts_(dJointGroupCreate(0))
     , elasticity_(scene.elasticity)
   {
+    dRandSetSeed(0);  // dWorldQuickStep shuffles the order of its rows
     dWorldSetGravity(world_, 0.0, -scene.gravity, 0.0);
     if (setting.iterations > 0)
       dWorldSetQuickStepNumIterations(world_, setting.iterations);

@@ -153,13 +153,18 @@ void summarise(const Case& of, Contestant& contestant)
 
 }  // namespace
 
+double seconds(const Case& of, const Engine& engine, const Setting& setting)
+{
+  return simulate(of, engine, setting).seconds;
+}
+
 CaseResults measure(const Case& of, const std::vector<Engine>& engines, const Plan& plan)
 {
   std::vector<Contestant> field = enter(of, engines, plan);
   for (int repeat = 0; repeat < plan.repeats; ++repeat)
     for (Contestant& contestant : field)
       if (contestant.result.cannot.empty() && contestant.first * (repeat + 1) < plan.budget)
-        contestant.seconds.push_back(simulate(of, *contestant.engine, contestant.result.setting).seconds);
+        contestant.seconds.push_back(seconds(of, *contestant.engine, contestant.result.setting));
   CaseResults results{ of, {} };
   for (Contestant& contestant : field)
   {

@@ -38,6 +38,9 @@ struct CaseResults
   std::vector<Result> results;  ///< by engine, then by setting, as far as the budget went
 };
 
+/// CPU time of one run, in s, from the built scene to the last state.
+double seconds(const Case& of, const Engine& engine, const Setting& setting);
+
 /// Every engine in every setting. They take turns, so that a busy moment of the machine meets all of them. The first
 /// round finds the errors and warms up; the others are timed.
 CaseResults measure(const Case& of, const std::vector<Engine>& engines, const Plan& plan);

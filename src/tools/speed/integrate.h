@@ -4,11 +4,12 @@
 
 namespace block_world::speed
 {
-/// One step of Gragg's midpoint rule, extrapolated from 2, 4 ... 16 parts (Bulirsch & Stoer 1966): order 16.
+/// One step of Gragg's midpoint rule, extrapolated from 2, 4 ... 10 parts (Bulirsch & Stoer 1966): order 10; more
+/// would only add rounding.
 template <class State, class Slope>
 State extrapolatedStep(const Slope& slope, const State& y, long double step)
 {
-  constexpr int rows = 8;
+  constexpr int rows = 5;
   std::array<State, rows> row;
   for (int k = 0; k < rows; ++k)
   {

@@ -60,11 +60,11 @@ Path trustedCollisions(const Scene& scene, int frames);
 
 // ---------------------------------------------------------------- integrated, with so many steps a frame
 
-/// A block that falls from rest, leaning on its lower left corner, which slides. Throws where it falls flat.
+/// A block that falls from rest, leaning on its lower left corner, which slides. Ends before it falls flat.
 Path fallingRod(const Scene& scene, int frames, int steps);
 
 /// A block that falls from rest, its lower long side's corners on the left wall and on the floor: slides down, leaves
-/// the wall, slides on. Throws where it falls flat.
+/// the wall, slides on. Ends before it falls flat.
 Path ladder(const Scene& scene, int frames, int steps);
 
 /// A block on a spring to a point of the world.

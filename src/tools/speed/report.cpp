@@ -151,6 +151,22 @@ void writeTable(const std::vector<CaseResults>& all, std::ostream& out)
   }
 }
 
+void writeCollisions(const std::vector<CaseResults>& all, std::ostream& out)
+{
+  for (const CaseResults& results : all)
+  {
+    if (!results.of.counts_collisions)
+      continue;
+    const double simulated = static_cast<double>(results.of.frames) / frame_rate;
+    const double collisions = static_cast<double>(results.results.front().impacts);
+    out << results.of.name << ": " << collisions / simulated << " collisions per simulated second; CPU time for each:";
+    for (const Result& result : results.results)
+      if (result.is_default && result.cannot.empty())
+        out << ' ' << result.engine << ' ' << micros(result.cost * simulated / collisions) << ';';
+    out << "\n\n";
+  }
+}
+
 std::vector<Goal> goals(const std::vector<CaseResults>& all)
 {
   std::vector<Goal> goals;

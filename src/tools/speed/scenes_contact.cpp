@@ -45,7 +45,13 @@ Case newtonsCradle(Variation& vary, const std::string& name, int strikers)
     scene.blocks.push_back(moving(box(side, side, side * i, 0.0), i < strikers ? speed : 0.0, 0.0));
   scene = finished(scene, name);
   const int frames = 2 * frame_rate;
-  return { name, { scene }, frames, { asked(cornerError(cradle(scene, frames, strikers))) }, 1.0, false };
+  return { name, { scene }, frames, { asked(cornerError(cradle(scene, frames, strikers))) }, 1.0 };
+}
+
+/// One block, as long as its path.
+Case toTheEnd(const Scene& scene, const Path& path)
+{
+  return { scene.name, { scene }, static_cast<int>(path.size()) - 1, { asked(cornerError(path)) }, 3.0 };
 }
 
 /// Slides down, leaning on one corner on the floor.
@@ -59,8 +65,7 @@ Case rod(Variation& vary)
   scene.walls.bottom = 0.0;
   scene.blocks = { box(length, thickness, 0.0, reach * std::sin(angle + lean), angle) };
   scene = finished(scene, "rod on a corner");
-  const int frames = frame_rate / 3;
-  return { scene.name, { scene }, frames, { asked(cornerError(fallingRod(scene, frames, steps))) }, 3.0, false };
+  return toTheEnd(scene, fallingRod(scene, frame_rate, steps));
 }
 
 /// Slides down wall and floor and leaves the wall.
@@ -74,8 +79,7 @@ Case ladderCase(Variation& vary)
   scene.blocks = { box(2 * p, 2 * h, p * std::cos(angle) + h * std::sin(angle),
                        p * std::sin(angle) + h * std::cos(angle), -angle) };
   scene = finished(scene, "ladder");
-  const int frames = 2 * frame_rate / 3;
-  return { scene.name, { scene }, frames, { asked(cornerError(ladder(scene, frames, steps))) }, 3.0, false };
+  return toTheEnd(scene, ladder(scene, 2 * frame_rate, steps));
 }
 
 /// Hangs on a damped spring at a corner.
@@ -92,8 +96,7 @@ Case hanging(Variation& vary)
   spring.damping = vary(0.5, 0.3);
   scene.springs = { spring };
   scene = finished(scene, "block on a spring");
-  const int frames = 5 * frame_rate;
-  return { scene.name, { scene }, frames, { asked(cornerError(springBlock(scene, frames, steps))) }, 3.0, false };
+  return toTheEnd(scene, springBlock(scene, 5 * frame_rate, steps));
 }
 
 }  // namespace

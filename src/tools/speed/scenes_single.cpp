@@ -19,7 +19,7 @@ Measure asked(Measure measure, double goal)
 
 Case oneScene(const Scene& scene, int frames, std::vector<Measure> measures, double cheaper)
 {
-  return { scene.name, { scene }, frames, std::move(measures), cheaper, false };
+  return { scene.name, { scene }, frames, std::move(measures), cheaper };
 }
 
 /// Both decay rates are equal (the ratio is I / m), since Chipmunk has one for both.
