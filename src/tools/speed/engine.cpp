@@ -32,7 +32,7 @@ std::vector<Setting> sweep(const std::vector<Quality>& qualities)
         continue;
       std::ostringstream label;
       label << "1/" << steps * frame_rate << " s; " << quality.label;
-      settings.push_back({ label.str(), steps, quality.iterations, quality.best, quality.sleeping, 0.0 });
+      settings.push_back({ label.str(), steps, quality.iterations, quality.effort, quality.sleeping, 0.0 });
     }
   return settings;
 }

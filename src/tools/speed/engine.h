@@ -35,7 +35,7 @@ struct Setting
   std::string label;
   int steps = 1;           ///< per frame; ours, which has none, stops as often
   int iterations = 0;      ///< 0: the engine's solver does not iterate
-  bool best = false;       ///< documented settings for accuracy, instead of those shipped
+  int effort = 0;          ///< 0: as shipped; from 1 on what is documented for accuracy
   bool sleeping = false;   ///< bodies at rest are taken out of the simulation
   double tolerance = 0.0;  ///< m, ours
 };
@@ -64,7 +64,8 @@ struct Quality
 {
   std::string label;
   int iterations = 0;
-  bool best = false, sleeping = false;
+  int effort = 0;
+  bool sleeping = false;
   bool finer = true;  ///< worth a sweep of the step, not only 1/60 s
 };
 /// Every quality with steps from 1/60 s to about 1/100000 s.

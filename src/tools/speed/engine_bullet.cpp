@@ -27,7 +27,7 @@ public:
     world_.setGravity(btVector3(0.0, -scene.gravity, 0.0));
     btContactSolverInfo& info = world_.getSolverInfo();
     info.m_numIterations = setting.iterations;
-    if (setting.best)
+    if (setting.effort > 0)
     {
       info.m_restitutionVelocityThreshold = 0.0;
       info.m_splitImpulsePenetrationThreshold = 0.0;  // overlap is never corrected by velocity
@@ -89,7 +89,7 @@ private:
     }
     if (!setting_.sleeping)
       body->setActivationState(DISABLE_DEACTIVATION);
-    if (setting_.best)
+    if (setting_.effort > 0)
     {
       body->setCcdMotionThreshold(half.minCoeff());
       body->setCcdSweptSphereRadius(0.8 * half.minCoeff());
@@ -119,9 +119,9 @@ std::string cannot(const Scene& scene)
 Engine bullet()
 {
   return { "Bullet", std::to_string(BT_BULLET_VERSION / 100) + "." + std::to_string(BT_BULLET_VERSION % 100),
-           sweep({ { "10 iterations, as shipped", 10, false, true },
-                   { "10 iterations, threshold 0, split impulse, CCD", 10, true, true },
-                   { "40 iterations, threshold 0, split impulse, CCD", 40, true, true } }),
+           sweep({ { "10 iterations, as shipped", 10, 0, true },
+                   { "10 iterations, threshold 0, split impulse, CCD", 10, 1, true },
+                   { "40 iterations, threshold 0, split impulse, CCD", 40, 1, true } }),
            [](const Scene& scene, const Setting& setting) -> std::unique_ptr<Simulation> {
              return std::make_unique<Bullet>(scene, setting);
            },

@@ -17,7 +17,8 @@ po::options_description describe(Options& options)
   auto add = description.add_options();
   add("help,h", "print this");
   add("list", po::bool_switch(&options.list), "print the names of engines and scenes");
-  add("short", po::bool_switch(&options.quick), "few scenes, every engine at its default only");
+  add("short", po::bool_switch(&options.quick), "few scenes, and --defaults");
+  add("defaults", po::bool_switch(&options.plan.only_defaults), "every engine at its default only");
   add("scene", po::value(&options.scenes)->value_name("NAME"), "only this scene; may be given several times");
   add("seed", po::value(&options.seed)->default_value(0)->value_name("N"),
       "other than 0: random versions of the scenes, the same for the same N");
@@ -65,7 +66,7 @@ std::optional<Options> parseOptions(int argc, const char* const* argv)
     refuse("--repeats", "1 or more", options.plan.repeats);
   if (!(options.plan.budget > 0.0))
     refuse("--budget", "> 0 s", options.plan.budget);
-  options.plan.only_defaults = options.quick;
+  options.plan.only_defaults |= options.quick;
   return options;
 }
 
