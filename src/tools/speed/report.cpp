@@ -14,10 +14,10 @@ std::string quoted(const std::string& text)
   return text.find(',') == std::string::npos ? text : '"' + text + '"';
 }
 
-std::string shortNumber(double value)
+std::string shortNumber(double value, int digits = 2)
 {
   std::ostringstream text;
-  text.precision(2);
+  text.precision(digits);
   text << value;
   return text.str();
 }
@@ -191,7 +191,7 @@ void writeGoals(const std::vector<Goal>& goals, std::ostream& out)
   out << "| scene | goal | at most | measured | |\n|---|---|---|---|---|\n";
   for (const Goal& goal : goals)
     out << "| " << goal.scene << " | " << goal.what << " | " << shortNumber(goal.asked) << " | "
-        << shortNumber(goal.measured) << " | " << (goal.met ? "met" : "**missed**") << " |\n";
+        << shortNumber(goal.measured, 3) << " | " << (goal.met ? "met" : "**missed**") << " |\n";
 }
 
 }  // namespace block_world::speed

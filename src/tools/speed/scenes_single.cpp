@@ -82,7 +82,8 @@ Case pair(Variation& vary, const std::string& name, double elasticity)
                    moving(box(0.5, 1.5, 1.0, vary(0.4, 0.3), vary(-0.1, 0.5)), vary(-1.0, 0.3), vary(0.1, 0.3)) };
   scene.blocks[1].mass = vary(3.0, 0.3);
   scene = finished(scene, name);
-  const int frames = 3 * frame_rate;
+  // They hit before 0.9 s; with loss, random ones can later hit ever faster, which the reference cannot follow.
+  const int frames = 6 * frame_rate / 5;
   return oneScene(scene, frames, { asked(cornerError(trustedCollisions(scene, frames)), exact) }, 1.0);
 }
 
