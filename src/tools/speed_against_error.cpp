@@ -51,16 +51,20 @@ std::vector<Family> chosen(const Options& options)
 }
 
 void write(const std::vector<CaseResults>& all, const std::vector<Goal>& goals,
-           const std::vector<FeatureCost>& features, std::ostream& out)
+           const std::vector<FeatureCost>& features, const Options& options, std::ostream& out)
 {
-  out << "Each cell: error @ CPU time per simulated second, at the engine's default and, below, with the least error "
-         "found.\n\n";
+  out << "# Speed against error: results\n\n" << machine();
+  if (options.seed)
+    out << "; random versions, seed " << options.seed;
+  out << "\n\nEach cell: error @ CPU time per simulated second, as shipped and, below, with the settings that gave the "
+         "least "
+         "error.\n\n";
   writeTable(all, out);
   out << '\n';
   writeCollisions(all, out);
-  out << "\nGoals:\n\n";
+  out << "## Goals\n\n";
   writeGoals(goals, out);
-  out << "\nWhat it costs block_world to model more, CPU time per simulated second:\n\n";
+  out << "\n## What it costs block_world to model more\n\nCPU time per simulated second.\n\n";
   writeFeatures(features, out);
 }
 
@@ -92,7 +96,7 @@ int runCommand(int argc, char** argv)
     writeCsv(all.back(), csv);
   }
   const std::vector<Goal> found = goals(all);
-  write(all, found, featureCosts(options->plan.repeats), options->report.empty() ? std::cout : report);
+  write(all, found, featureCosts(options->plan.repeats), *options, options->report.empty() ? std::cout : report);
   const bool met = std::all_of(found.begin(), found.end(), [](const Goal& goal) { return goal.met; });
   return options->check && !met ? failed : done;
 }

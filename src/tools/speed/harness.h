@@ -13,7 +13,7 @@ namespace block_world::speed
 struct Plan
 {
   int repeats = 9;
-  double budget = 0.5;         ///< s of CPU time for the repeats of one setting on one case
+  double budget = 0.4;         ///< s of CPU time for the repeats of one setting on one case
   bool only_defaults = false;  ///< no sweep
 };
 

@@ -23,7 +23,7 @@ po::options_description describe(Options& options)
   add("seed", po::value(&options.seed)->default_value(0)->value_name("N"),
       "other than 0: random versions of the scenes, the same for the same N");
   add("repeats", po::value(&options.plan.repeats)->default_value(9)->value_name("N"), "timed runs of a setting");
-  add("budget", po::value(&options.plan.budget)->default_value(0.5, "0.5")->value_name("S"),
+  add("budget", po::value(&options.plan.budget)->default_value(0.4, "0.4")->value_name("S"),
       "CPU time for the runs of one setting of one engine on one scene; finer settings are left out");
   add("csv", po::value(&options.csv)->value_name("FILE"), "all results as CSV");
   add("report", po::value(&options.report)->value_name("FILE"), "tables in Markdown, by default to standard output");

@@ -159,12 +159,18 @@ void writeCollisions(const std::vector<CaseResults>& all, std::ostream& out)
       continue;
     const double simulated = static_cast<double>(results.of.frames) / frame_rate;
     const double collisions = static_cast<double>(results.results.front().impacts);
-    out << results.of.name << ": " << collisions / simulated << " collisions per simulated second; CPU time for each:";
+    out << "- " << results.of.name << ", " << shortNumber(collisions / simulated, 4)
+        << " collisions per simulated second, CPU time for each:";
+    std::string comma;
     for (const Result& result : results.results)
       if (result.is_default && result.cannot.empty())
-        out << ' ' << result.engine << ' ' << micros(result.cost * simulated / collisions) << ';';
-    out << "\n\n";
+      {
+        out << comma << ' ' << result.engine << ' ' << micros(result.cost * simulated / collisions);
+        comma = ",";
+      }
+    out << '\n';
   }
+  out << '\n';
 }
 
 std::vector<Goal> goals(const std::vector<CaseResults>& all)

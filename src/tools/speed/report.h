@@ -18,7 +18,7 @@ void writeCsv(const CaseResults& results, std::ostream& out);
 /// A Markdown table: each engine's error and cost at its default, and its least error with that one's cost.
 void writeTable(const std::vector<CaseResults>& all, std::ostream& out);
 
-/// What a collision costs each engine at its default, in the cases where that is asked; nothing where there are none.
+/// What a collision costs each engine at its default, in the cases where that is asked: a list.
 void writeCollisions(const std::vector<CaseResults>& all, std::ostream& out);
 
 /// What is asked of us.
