@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iostream>
 #include <ostream>
+#include <stdexcept>
 
 #include "speed/features.h"
 #include "speed/options.h"
@@ -86,17 +87,23 @@ int runCommand(int argc, char** argv)
   if (!options->report.empty())
     report = openFile(options->report);
 
-  writeCsvHeader(csv);
+  if (csv.is_open())
+    writeCsvHeader(csv);
   std::vector<CaseResults> all;
   for (const Family& family : wanted)
   {
     std::fprintf(stderr, "%s\n", family.name.c_str());
     Variation vary(options->seed);
     all.push_back(measure(family.make(vary), all_engines, options->plan));
-    writeCsv(all.back(), csv);
+    if (csv.is_open())
+      writeCsv(all.back(), csv);
   }
   const std::vector<Goal> found = goals(all);
   write(all, found, featureCosts(options->plan.repeats), *options, options->report.empty() ? std::cout : report);
+  csv.flush();
+  report.flush();
+  if ((csv.is_open() && !csv) || (report.is_open() && !report))
+    throw std::runtime_error("a file could not be written to its end");
   const bool met = std::all_of(found.begin(), found.end(), [](const Goal& goal) { return goal.met; });
   return options->check && !met ? failed : done;
 }

@@ -2,6 +2,7 @@
 // a slowdown by half shows on any computer.
 
 #include "speed/harness.h"
+#include "speed/options.h"
 #include "speed/scenes.h"
 
 #include <gtest/gtest.h>
@@ -84,6 +85,29 @@ TEST(SpeedAgainstError, OurCost)
     std::printf("%-14s %5.3f\n", family.name.c_str(), ratio);
     EXPECT_LE(ratio, slower * usual.at(family.name)) << family.name;
   }
+}
+
+// As simulate does it: what cannot be followed is refused, with the option's name.
+TEST(SpeedAgainstError, Options)
+{
+  const auto parsed = [](std::vector<const char*> words) {
+    words.insert(words.begin(), "speed_against_error");
+    return parseOptions(static_cast<int>(words.size()), words.data());
+  };
+  EXPECT_EQ(parsed({ "--seed", "7" })->seed, 7u);
+  EXPECT_TRUE(parsed({ "--short" })->plan.only_defaults);
+  for (const std::vector<const char*>& wrong :
+       { std::vector<const char*>{ "--seed", "-1" }, { "--repeats", "0" }, { "--budget", "nan" }, { "--seeds", "1" } })
+    try
+    {
+      parsed(wrong);
+      ADD_FAILURE() << wrong[0] << ' ' << wrong[1] << " was accepted";
+    }
+    catch (const UsageError& error)
+    {
+      EXPECT_NE(std::string(error.what()).find(wrong[0]), std::string::npos) << error.what();
+    }
+  EXPECT_THROW(parsed({ "word" }), UsageError);
 }
 
 }  // namespace

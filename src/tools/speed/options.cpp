@@ -2,7 +2,10 @@
 
 #include <boost/program_options.hpp>
 
+#include <cmath>
+#include <cstdint>
 #include <iostream>
+#include <limits>
 #include <sstream>
 
 namespace block_world::speed
@@ -11,7 +14,7 @@ namespace
 {
 namespace po = boost::program_options;
 
-po::options_description describe(Options& options)
+po::options_description describe(Options& options, std::int64_t& seed)
 {
   po::options_description description("options");
   auto add = description.add_options();
@@ -20,7 +23,7 @@ po::options_description describe(Options& options)
   add("short", po::bool_switch(&options.quick), "few scenes, and --defaults");
   add("defaults", po::bool_switch(&options.plan.only_defaults), "every engine at its default only");
   add("scene", po::value(&options.scenes)->value_name("NAME"), "only this scene; may be given several times");
-  add("seed", po::value(&options.seed)->default_value(0)->value_name("N"),
+  add("seed", po::value(&seed)->default_value(0)->value_name("N"),
       "other than 0: random versions of the scenes, the same for the same N");
   add("repeats", po::value(&options.plan.repeats)->default_value(9)->value_name("N"), "timed runs of a setting");
   add("budget", po::value(&options.plan.budget)->default_value(0.4, "0.4")->value_name("S"),
@@ -43,7 +46,8 @@ po::options_description describe(Options& options)
 std::optional<Options> parseOptions(int argc, const char* const* argv)
 {
   Options options;
-  const po::options_description description = describe(options);
+  std::int64_t seed = 0;
+  const po::options_description description = describe(options, seed);
   po::variables_map values;
   try
   {
@@ -62,10 +66,13 @@ std::optional<Options> parseOptions(int argc, const char* const* argv)
     std::cout << "usage: speed_against_error [options]\n" << description;
     return std::nullopt;
   }
+  if (seed < 0 || seed > std::numeric_limits<unsigned>::max())
+    refuse("--seed", "0 to 4294967295", static_cast<double>(seed));
+  options.seed = static_cast<unsigned>(seed);
   if (options.plan.repeats < 1)
     refuse("--repeats", "1 or more", options.plan.repeats);
-  if (!(options.plan.budget > 0.0))
-    refuse("--budget", "> 0 s", options.plan.budget);
+  if (!(options.plan.budget > 0.0 && std::isfinite(options.plan.budget)))
+    refuse("--budget", "> 0 s and finite", options.plan.budget);
   options.plan.only_defaults |= options.quick;
   return options;
 }
