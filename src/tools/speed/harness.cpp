@@ -103,6 +103,9 @@ double expectedSeconds(const std::vector<Contestant>& field, const Engine& engin
   return seconds;
 }
 
+/// A single run that is expected to take longer than so many budgets is left out.
+constexpr double longest = 5.0;
+
 /// The first round.
 std::vector<Contestant> enter(const Case& of, const std::vector<Engine>& engines, const Plan& plan)
 {
@@ -114,7 +117,7 @@ std::vector<Contestant> enter(const Case& of, const std::vector<Engine>& engines
     {
       const bool is_default = &setting == &engine.settings.front();
       if (!is_default && (plan.only_defaults || !cannot.empty() ||
-                          (setting.steps > 1 && expectedSeconds(field, engine, setting) > 2.0 * plan.budget)))
+                          (setting.steps > 1 && expectedSeconds(field, engine, setting) > longest * plan.budget)))
         continue;
       Contestant contestant;
       contestant.engine = &engine;
