@@ -166,7 +166,7 @@ void ContactGroup::capture()
 double ContactGroup::holdActive()
 {
   prepare();
-  const std::vector<Twist> start = velocities();
+  start_ = velocities();
   pressed_.clear();
   others_.clear();
   for (std::size_t i = 0; i < touches.size(); ++i)
@@ -174,7 +174,7 @@ double ContactGroup::holdActive()
       pressed_.push_back(static_cast<int>(i));
   carryOut();
   clean();
-  return lossSince(start);
+  return lossSince(start_);
 }
 
 }  // namespace block_world

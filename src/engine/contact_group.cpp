@@ -124,9 +124,11 @@ void ContactGroup::reflect(const std::vector<int>& rows)
   }
 }
 
-/// s with (v + s c).M c = 0: 1 but for rounding, which large impulses that all but cancel can make large. c is left in changes_.
+/// s with (v + s c).M c = 0: 1 but for rounding, which large impulses that all but cancel can make large. Of several rows c is left in changes_.
 double ContactGroup::shareOfProjection(const std::vector<int>& rows)
 {
+  if (rows.size() == 1)
+    return 1.0;
   sumChanges(rows, impulses_, changes_);
   const double square = product(changes_, changes_), share = square > 0.0 ? -product(velocities(), changes_) / square : 1.0;
   return std::abs(share - 1.0) > 1e-12 ? std::max(0.0, share) : 1.0;
@@ -201,7 +203,7 @@ double ContactGroup::collide(const ContactScales& scales)
     if (meets_[i])
       all_.push_back(i);
 
-  const std::vector<Twist> start = velocities();
+  start_ = velocities();
   bool planned = false;
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends
   // inelastically.
@@ -236,7 +238,7 @@ double ContactGroup::collide(const ContactScales& scales)
   }
   capture();
   clean();
-  return lossSince(start);
+  return lossSince(start_);
 }
 
 void ContactGroup::place(Member& member, const Vec2& shift, double turn)

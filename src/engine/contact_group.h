@@ -121,7 +121,7 @@ private:
     double x = 0.0, y = 0.0, omega = 0.0;
   };
   std::vector<Size> sizes_;
-  std::vector<Twist> changes_, rebound_, velocities_;  ///< by member
+  std::vector<Twist> changes_, rebound_, velocities_, start_;  ///< by member
   std::vector<double> speeds_;                         ///< m/s, by member: what the plan changes
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
 };
