@@ -52,6 +52,7 @@ EnergyPanel::EnergyPanel(QWidget* parent) : rviz::Panel(parent)
 
   world_.on_energy = [this](const msg::Energy& message) { onEnergy(message); };
   world_.on_parameters = [this](const std::map<std::string, double>& parameters) {
+    has_values_ = true;
     for (const std::unique_ptr<ValueRow>& row : values_)
       if (parameters.count(row->name()) > 0)
         row->show(parameters.at(row->name()));
@@ -139,6 +140,7 @@ void EnergyPanel::connectWorld()
     return;
   connected_ = name;
   energy_.reset();
+  has_values_ = false;
   strip_->clear();
   answer_->clear();
   world_.connect(name.toStdString());
@@ -154,7 +156,7 @@ void EnergyPanel::refresh()
 {
   const bool there = world_.isThere();
   const bool paused = world_.isPaused();
-  controls_->setEnabled(there);
+  controls_->setEnabled(there && has_values_);  // a recording that is played has none
   step_->setEnabled(paused);
   pause_->setText(paused ? "&Play" : "&Pause");
   pause_->setIcon(style()->standardIcon(paused ? QStyle::SP_MediaPlay : QStyle::SP_MediaPause));

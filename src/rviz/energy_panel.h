@@ -42,6 +42,7 @@ private:
   WorldClient world_;
   QString connected_;  ///< name of the world that world_ is connected to
   std::optional<msg::Energy> energy_;
+  bool has_values_ = false;  ///< the world has told its live parameters
 
   EnergyBars* bars_;
   EnergyStrip* strip_;
