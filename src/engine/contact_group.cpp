@@ -101,6 +101,16 @@ bool ContactGroup::anyElastic(const std::vector<int>& rows) const
   return std::any_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity > 0.0; });
 }
 
+/// Takes those of the rows that approach, however slowly. Returns whether there are any.
+bool ContactGroup::stillApproach(const std::vector<int>& rows)
+{
+  fast_.clear();
+  for (int i : rows)
+    if (velocityOf(i) < -noise_)
+      fast_.push_back(i);
+  return !fast_.empty();
+}
+
 /// One stage of reflection (Smith et al. 2012, with the elasticity in every stage): l minimises the kinetic energy after an inelastic impact of the
 /// approaching touches; the impulse is (1 + e) l. For one touch this is equation (11).
 ///
@@ -204,6 +214,7 @@ double ContactGroup::collide(const ContactScales& scales)
       all_.push_back(i);
 
   start_ = velocities();
+  bouncing_.clear();
   bool planned = false;
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends
   // inelastically.
@@ -216,13 +227,16 @@ double ContactGroup::collide(const ContactScales& scales)
     for (int i : all_)
       if (velocityOf(i) < -rest_speed_[i])
         fast_.push_back(i);
-    if (fast_.empty())
+    if (!fast_.empty())
+      bouncing_.clear();
+    else if (!stillApproach(bouncing_))
     {
       planCapture();
+      bouncing_.clear();
       for (std::size_t k = 0; k < others_.size(); ++k)
-        if (pushes_[k] > 0.0 && velocityOf(others_[k]) < -noise_)
-          fast_.push_back(others_[k]);
-      planned = !anyElastic(fast_);
+        if (pushes_[k] > 0.0)
+          bouncing_.push_back(others_[k]);
+      planned = !stillApproach(bouncing_) || !anyElastic(fast_);
       if (planned)
         break;
     }
