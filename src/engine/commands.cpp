@@ -1,3 +1,5 @@
+// What is asked of the world while it runs: checked as a whole, then done.
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,88 +19,6 @@ bool negativeOrNotFinite(double value)
   return !(value >= 0.0) || std::isinf(value);
 }
 }  // namespace
-
-/// Force and torque of the thrusters at their levels and of the wrench, in body axes.
-void World::Engine::refreshPush(Body& body)
-{
-  body.push = body.wrench_force;
-  body.twist = body.wrench_torque;
-  for (std::size_t i = 0; i < body.thrusters.size(); ++i)
-  {
-    const Thruster& thruster = body.thrusters[i];
-    const Vec2 force = body.levels[i] * thruster.strength * thruster.direction;
-    body.push += force;
-    body.twist += cross(thruster.point, force);
-  }
-}
-
-/// Whether anything takes energy between impacts.
-void World::Engine::refreshDissipative()
-{
-  dissipative_ = scene.damping > 0.0;
-  for (const SpringLink& link : links_)
-    dissipative_ = dissipative_ || link.damping > 0.0;
-  for (const Body& body : bodies)
-    dissipative_ = dissipative_ || (body.mouse.active && body.mouse.damping > 0.0);
-}
-
-void World::Engine::expiryPromise(int body)
-{
-  const Body& b = bodies[body];
-  promises_.set(expirySlot(body), std::min(b.thrust_until, b.mouse.active ? b.mouse.until : Time::infinity()));
-}
-
-/// The forces on a body changed: new arcs for its island.
-void World::Engine::wake(int body, const Time& time)
-{
-  expiryPromise(body);
-  seeds_.assign(1, body);
-  resolve(time);
-}
-
-void World::Engine::release(Body& body, const Time& time)
-{
-  spring_work_ -= mouseEnergy(body, time);
-  body.mouse = MouseSpring();
-  refreshDissipative();
-}
-
-/// A timed command of a body ends.
-void World::Engine::expire(int body, const Time& time)
-{
-  kind_ = CostKind::Command;
-  // The work done until now belongs to the forces that did it.
-  Body& b = bodies[body];
-  closeIsland(body, time);
-  if (b.thrust_until <= time)
-  {
-    b.levels.assign(b.thrusters.size(), 0.0);
-    b.thrust_until = Time::infinity();
-    refreshPush(b);
-  }
-  if (b.mouse.active && b.mouse.until <= time)
-    release(b, time);
-  wake(body, time);
-}
-
-Time World::Engine::nextInputTime() const
-{
-  return next_input_ < scene.inputs.size() ? scene.inputs[next_input_].time.after(input_start_) : Time::infinity();
-}
-
-void World::Engine::applyInputs(const Time& time)
-{
-  while (nextInputTime() <= time)
-  {
-    const Applied applied = applyAt(scene.inputs[next_input_].command, time);
-    if (applied.ok)
-      inputs_done.push_back({ time, applied.command });
-    else
-      notes.push_back("inputs[" + std::to_string(next_input_) + "] refused: " + applied.reason);
-    ++next_input_;
-  }
-  promises_.set(0, nextInputTime());
-}
 
 void World::Engine::pickNearest(SpringCommand& command, const Time& time) const
 {
@@ -136,73 +56,6 @@ bool World::Engine::overlaps(int body, const Frame& at, const Time& time, std::s
     }
   }
   return false;
-}
-
-/// Ends the arcs of a body's island and leaves each of its bodies alone, on a straight arc from here, to be resolved anew.
-void World::Engine::dissolve(int body, const Time& time)
-{
-  const std::vector<int> members = islands_[bodies[body].island].bodies;
-  closeIsland(body, time);
-  seeds_.clear();
-  for (int i : members)
-  {
-    promises_.set(islandSlot(i), Time::infinity());
-    islands_[i].bodies.assign(1, i);
-    islands_[i].rests.clear();
-    bodies[i].island = i;
-    for (int pair : bodies[i].pairs)
-      pairs_[pair].resting.clear();
-    seeds_.push_back(i);
-  }
-}
-
-/// Bodies changed in number: everything is built anew from the scene, with the present states, forces and springs of those that stay.
-void World::Engine::rebuild(const Time& time)
-{
-  const double before = storedTotal(time);
-  for (int i = 0; i < block_count; ++i)
-    if (!bodies[i].fixed && bodies[i].island == i)
-      closeIsland(i, time);
-  const std::vector<Body> old(bodies.begin(), bodies.begin() + block_count);
-  const Time input_promise = promises_.time(0);
-  build();
-  promises_.set(0, input_promise);
-  for (int i = 0; i < block_count; ++i)
-  {
-    Body& body = bodies[i];
-    body.arc.start = time;
-    if (body.fixed)
-      continue;
-    MotionState state;
-    const Block& block = scene.blocks[i];
-    state.position = block.position;
-    state.angle = block.angle;
-    state.velocity = block.velocity;
-    state.omega = block.omega;
-    for (const Body& former : old)
-    {
-      if (former.name != body.name)
-        continue;
-      state = former.stateAt(time);
-      body.levels = former.levels;
-      body.thrust_until = former.thrust_until;
-      body.wrench_force = former.wrench_force;
-      body.wrench_torque = former.wrench_torque;
-      body.mouse = former.mouse;
-      refreshPush(body);
-    }
-    putAt(i, state, time);
-    body.island = i;
-    islands_[i].bodies.assign(1, i);
-  }
-  refreshDissipative();
-  // The jump is the command's; what impacts take at once is theirs.
-  command_work_ += storedTotal(time) - before;
-  pairAll();
-  resolveAll(time);
-  for (int i = 0; i < block_count; ++i)
-    if (!bodies[i].fixed)
-      expiryPromise(i);
 }
 
 Applied World::Engine::apply(const Command& command)

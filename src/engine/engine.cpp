@@ -5,6 +5,19 @@
 
 namespace block_world
 {
+namespace
+{
+MotionState initialState(const Block& block)
+{
+  MotionState state;
+  state.position = block.position;
+  state.angle = block.angle;
+  state.velocity = block.velocity;
+  state.omega = block.omega;
+  return state;
+}
+}  // namespace
+
 World::Engine::Engine(Scene loaded, const Time& begin) : now(begin), loaded_(std::move(loaded))
 {
   notes = completeScene(loaded_);
@@ -111,13 +124,7 @@ void World::Engine::start()
   for (int i = 0; i < block_count; ++i)
   {
     Body& body = bodies[i];
-    const Block& block = scene.blocks[i];
-    MotionState state;
-    state.position = block.position;
-    state.angle = block.angle;
-    state.velocity = block.velocity;
-    state.omega = block.omega;
-    putAt(i, state, now);
+    putAt(i, initialState(scene.blocks[i]), now);
     if (body.fixed)
     {
       body.arc.degree = 0;
@@ -133,6 +140,50 @@ void World::Engine::start()
   next_input_ = 0;
   promises_.set(0, nextInputTime());
   restartAccount();
+}
+
+/// Bodies changed in number: everything is built anew from the scene, with the present states, forces and springs of those that stay.
+void World::Engine::rebuild(const Time& time)
+{
+  const double before = storedTotal(time);
+  for (int i = 0; i < block_count; ++i)
+    if (!bodies[i].fixed && bodies[i].island == i)
+      closeIsland(i, time);
+  const std::vector<Body> old(bodies.begin(), bodies.begin() + block_count);
+  const Time input_promise = promises_.time(0);
+  build();
+  promises_.set(0, input_promise);
+  for (int i = 0; i < block_count; ++i)
+  {
+    Body& body = bodies[i];
+    body.arc.start = time;
+    if (body.fixed)
+      continue;
+    MotionState state = initialState(scene.blocks[i]);
+    for (const Body& former : old)
+    {
+      if (former.name != body.name)
+        continue;
+      state = former.stateAt(time);
+      body.levels = former.levels;
+      body.thrust_until = former.thrust_until;
+      body.wrench_force = former.wrench_force;
+      body.wrench_torque = former.wrench_torque;
+      body.mouse = former.mouse;
+      refreshPush(body);
+    }
+    putAt(i, state, time);
+    body.island = i;
+    islands_[i].bodies.assign(1, i);
+  }
+  refreshDissipative();
+  // The jump is the command's; what impacts take at once is theirs.
+  command_work_ += storedTotal(time) - before;
+  pairAll();
+  resolveAll(time);
+  for (int i = 0; i < block_count; ++i)
+    if (!bodies[i].fixed)
+      expiryPromise(i);
 }
 
 void World::Engine::resolveAll(const Time& time)

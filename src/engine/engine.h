@@ -62,6 +62,7 @@ private:
   void build();
   void buildBodies();
   void start();
+  void rebuild(const Time& time);
   void resolveAll(const Time& time);
   void keep(int slot, const Time& time);
   int expirySlot(int body) const
@@ -119,6 +120,7 @@ private:
   void regroup(const Time& time);
   void launch(const Time& time, const std::vector<int>& members);
   void promiseIsland(int island, const Time& time);
+  void dissolve(int body, const Time& time);
   void endDecay(Member& member) const;
   void continueIsland(int island, const Time& time);
 
@@ -141,22 +143,22 @@ private:
   double mouseEnergy(const Body& body, const Time& time) const;
   void restartAccount();
 
-  // commands.cpp
-  struct Handler;
-  Applied applyAt(const Command& command, const Time& time, bool check_only = false);
+  // forcing.cpp: what pushes and pulls from outside, and until when
+  void refreshPush(Body& body);
+  void refreshDissipative();
+  void expiryPromise(int body);
+  void wake(int body, const Time& time);
+  void release(Body& body, const Time& time);
   void expire(int body, const Time& time);
   Time nextInputTime() const;
   void applyInputs(const Time& time);
-  void expiryPromise(int body);
-  void wake(int body, const Time& time);
+
+  // commands.cpp: what is asked of the world
+  struct Handler;
+  Applied applyAt(const Command& command, const Time& time, bool check_only = false);
   void set(const SetCommand& command);
-  void refreshPush(Body& body);
-  void refreshDissipative();
-  void release(Body& body, const Time& time);
   void pickNearest(SpringCommand& command, const Time& time) const;
   bool overlaps(int body, const Frame& frame, const Time& time, std::string& with) const;
-  void dissolve(int body, const Time& time);
-  void rebuild(const Time& time);
 
   Scene loaded_;
   Field field_;

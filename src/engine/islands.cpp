@@ -159,6 +159,24 @@ void World::Engine::promiseIsland(int name, const Time& time)
   promises_.set(islandSlot(name), span < arc.horizon ? time + span : arc.end);
 }
 
+/// Ends the arcs of a body's island and leaves each of its bodies alone, on a straight arc from here, to be resolved anew.
+void World::Engine::dissolve(int body, const Time& time)
+{
+  const std::vector<int> members = islands_[bodies[body].island].bodies;
+  closeIsland(body, time);
+  seeds_.clear();
+  for (int i : members)
+  {
+    promises_.set(islandSlot(i), Time::infinity());
+    islands_[i].bodies.assign(1, i);
+    islands_[i].rests.clear();
+    bodies[i].island = i;
+    for (int pair : bodies[i].pairs)
+      pairs_[pair].resting.clear();
+    seeds_.push_back(i);
+  }
+}
+
 /// A component of the velocity that has decayed to the rounding of the others is zero: else it would go on decaying, in arcs as short as its time.
 void World::Engine::endDecay(Member& m) const
 {
