@@ -101,16 +101,6 @@ bool ContactGroup::anyElastic(const std::vector<int>& rows) const
   return std::any_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity > 0.0; });
 }
 
-/// Takes those of the rows that approach, however slowly. Returns whether there are any.
-bool ContactGroup::stillApproach(const std::vector<int>& rows)
-{
-  fast_.clear();
-  for (int i : rows)
-    if (velocityOf(i) < -noise_)
-      fast_.push_back(i);
-  return !fast_.empty();
-}
-
 /// One stage of reflection (Smith et al. 2012, with the elasticity in every stage): l minimises the kinetic energy after an inelastic impact of the
 /// approaching touches; the impulse is (1 + e) l. For one touch this is equation (11).
 ///
@@ -197,6 +187,15 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
   return 1.0 - sum < 1e-12;  // the minimum is -sum/2
 }
 
+/// What the last plan pushes and still approaches, however slowly: it bounces before another plan is made.
+void ContactGroup::takeBouncing()
+{
+  approaching_.clear();
+  for (int i : bouncing_)
+    if (velocityOf(i) < -noise_)
+      approaching_.push_back(i);
+}
+
 double ContactGroup::collide(const ContactScales& scales)
 {
   const int n = static_cast<int>(touches.size());
@@ -219,29 +218,34 @@ double ContactGroup::collide(const ContactScales& scales)
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends
   // inelastically.
   const int cap = 100 * (n + 10);
-  for (int stage = 0; stage < cap && !planned; ++stage)
+  for (int stage = 0; stage < cap; ++stage)
   {
     if (stage == 50 && isLocked(all_))
       break;
-    fast_.clear();
+    approaching_.clear();
     for (int i : all_)
       if (velocityOf(i) < -rest_speed_[i])
-        fast_.push_back(i);
-    if (!fast_.empty())
+        approaching_.push_back(i);
+    if (!approaching_.empty())
       bouncing_.clear();
-    else if (!stillApproach(bouncing_))
+    else
     {
-      planCapture();
-      bouncing_.clear();
-      for (std::size_t k = 0; k < others_.size(); ++k)
-        if (pushes_[k] > 0.0)
-          bouncing_.push_back(others_[k]);
-      planned = !stillApproach(bouncing_) || !anyElastic(fast_);
-      if (planned)
-        break;
+      takeBouncing();
+      if (!anyElastic(approaching_))
+      {
+        planCapture();
+        bouncing_.clear();
+        for (std::size_t k = 0; k < others_.size(); ++k)
+          if (pushes_[k] > 0.0)
+            bouncing_.push_back(others_[k]);
+        takeBouncing();
+        planned = !anyElastic(approaching_);
+        if (planned)
+          break;
+      }
     }
-    if (anyElastic(fast_))
-      reflect(fast_);
+    if (anyElastic(approaching_))
+      reflect(approaching_);
     else
       stop();
   }

@@ -77,7 +77,7 @@ private:
   double shareOfRebound(const std::vector<int>& rows, double projection);
   void stop();
   void clean();
-  bool stillApproach(const std::vector<int>& rows);
+  void takeBouncing();
   bool anyElastic(const std::vector<int>& rows) const;
   bool isLocked(const std::vector<int>& rows);
 
@@ -109,7 +109,7 @@ private:
   SymmetricMatrix gram_;
   Complementarity solver_;
   Cholesky factor_;
-  std::vector<int> all_, fast_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_;
+  std::vector<int> all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_;
   std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
   std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
   std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest
