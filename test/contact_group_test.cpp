@@ -282,7 +282,6 @@ TEST(ContactGroup, SlowOnesArePressedOrReflected)
     {
       EXPECT_NEAR(force, 2.0 * 9.81, 1e-13);
     }
-    EXPECT_NEAR(group.accelerationScale(), 9.81, 1e-14);
   }
 }
 

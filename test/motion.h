@@ -50,13 +50,9 @@ public:
     {
       Touch& t = rest.touch;
       const Member a = memberAt(bodies[t.a], t.a, now), b = memberAt(bodies[t.b], t.b, now);
-      const Face& face = bodies[t.b].shape.faces[t.face];
       t.member_a = member_of[t.a];
       t.member_b = member_of[t.b];
-      t.arm = a.frame.rotate(bodies[t.a].shape.vertices[t.vertex]);
-      t.reach = a.frame.position + t.arm - b.frame.position;
-      t.normal = b.frame.rotate(face.normal);
-      t.along = perp(t.normal).dot(t.reach - b.frame.rotate(face.start));
+      locate(t, bodies[t.a], a.frame, bodies[t.b], b.frame);
     }
     flow_.expand(bodies, links, field, now, members, rests);
     ++arcs;

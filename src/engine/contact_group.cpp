@@ -71,7 +71,7 @@ void ContactGroup::scale(const ContactScales& scales)
     speed = std::max(speed, m.velocity.norm() + std::abs(m.omega) * gyration);
   }
   // Rounding of a velocity that is a difference of larger ones, those before the event included.
-  noise_ = std::max(noise_, 1e-13 * speed);
+  noise_ = std::max(noise_, kSpeedNoise * speed);
   // A bounce at speed v under the acceleration a rises v^2 / 2a: below sqrt(8 a delta) never more than 4 delta, so that the rest of the
   // decaying series of bounces is replaced by its limit. A contact that loses nothing has no such limit; there only what the
   // coordinates cannot resolve is taken away.

@@ -7,6 +7,9 @@
 
 namespace block_world
 {
+/// A normal velocity below this share of the speeds that make it up is rounding.
+constexpr double kSpeedNoise = 1e-13;
+
 /// What bounds the answer of a contact group to an event.
 struct ContactScales
 {
@@ -50,11 +53,6 @@ public:
   /// After settlePositions and with the new geometry: the active touches neither approach nor open. Returns the energy lost.
   double holdActive();
 
-  /// Largest free acceleration, m/s^2.
-  double accelerationScale() const
-  {
-    return acceleration_scale_;
-  }
   /// Speed below which a velocity is rounding, m/s.
   double noise() const
   {

@@ -229,13 +229,16 @@ void World::Engine::keep(int slot, const Time& time)
   else if (slot < 1 + 2 * count)
   {
     const int island = slot - 1 - count;
-    kind_ = time < bodies[island].arc.end ? CostKind::Contact : CostKind::Arc;
-    if (islands_[island].rests.empty())
-      continueIsland(island, time);
+    if (time < bodies[island].arc.end)
+    {
+      kind_ = CostKind::Contact;
+      seeds_.assign(1, island);
+      resolve(time);
+    }
     else
     {
-      seeds_.assign(1, islands_[island].bodies.front());
-      resolve(time);
+      kind_ = CostKind::Arc;
+      continueIsland(island, time);
     }
   }
   else if (slot < pairSlot(0))

@@ -108,6 +108,7 @@ private:
   // resolve.cpp: what happens at an event
   void resolve(const Time& time);
   void join(int body, const Time& time);
+  Member memberAt(int body, const Time& time);
   int memberOf(int body, const Time& time);
   void findTouches(const Time& time, int round);
   void report(const Time& time, bool last);  // report.cpp
@@ -119,9 +120,13 @@ private:
   // islands.cpp: who moves as one, and how
   void regroup(const Time& time);
   void launch(const Time& time, const std::vector<int>& members);
+  void move(Island& island, const Time& time);
+  bool isStill(const Island& island) const;
+  void sleep(Island& island);
   void promiseIsland(int island, const Time& time);
   void dissolve(int body, const Time& time);
   void endDecay(Member& member) const;
+  bool hasDrifted(Island& island, const Time& time);
   void continueIsland(int island, const Time& time);
 
   // account.cpp: energies and works

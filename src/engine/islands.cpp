@@ -93,43 +93,51 @@ void World::Engine::launch(const Time& time, const std::vector<int>& members)
     Pair& pair = pairs_[t.pair];
     pair.resting.push_back({ pair.a == t.b, t.face, t.vertex });
   }
+  move(island, time);
+  promiseIsland(name, time);
+}
+
+/// New arcs of an island from island_state_ on.
+void World::Engine::move(Island& island, const Time& time)
+{
   flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
   for (int body : island.bodies)
     cache_[body].time = Time::infinity();
+  if (isStill(island))
+    sleep(island);
+}
 
-  // An island in equilibrium whose velocities are rounding sleeps: constant arcs without an end. What rounding leaves of an acceleration is
-  // proportional to the forces that cancel in it.
-  if (!island.rests.empty())
+/// Whether an island is in equilibrium, and its velocities are rounding. What rounding leaves of an acceleration is proportional to the forces that
+/// cancel in it.
+bool World::Engine::isStill(const Island& island) const
+{
+  double a = 0.0;
+  for (const Rest& rest : island.rests)
+    for (int body : { rest.touch.a, rest.touch.b })
+      a = std::max(a, std::abs(rest.force[0]) * bodies[body].inverse_mass);
+  return a > 0.0 && std::all_of(island.bodies.begin(), island.bodies.end(), [&](int body) {
+    const Arc& arc = bodies[body].arc;
+    const double radius = bodies[body].shape.radius;
+    const double speed = std::hypot(arc.x[1], arc.y[1]) + radius * std::abs(arc.angle[1]);
+    const double acceleration = 2.0 * (std::hypot(arc.x[2], arc.y[2]) + radius * std::abs(arc.angle[2]));
+    return speed <= 1e-12 * std::sqrt(a * radius) && acceleration <= 1e-12 * a;
+  });
+}
+
+/// Constant arcs without an end.
+void World::Engine::sleep(Island& island)
+{
+  for (int body : island.bodies)
   {
-    double a = group_.accelerationScale();
-    for (const Rest& rest : island.rests)
-      for (int body : { rest.touch.a, rest.touch.b })
-        a = std::max(a, std::abs(rest.force[0]) * bodies[body].inverse_mass);
-    bool still = true;
-    for (int body : island.bodies)
-    {
-      const Arc& arc = bodies[body].arc;
-      const double radius = bodies[body].shape.radius;
-      const double speed = std::hypot(arc.x[1], arc.y[1]) + radius * std::abs(arc.angle[1]);
-      const double acceleration = 2.0 * (std::hypot(arc.x[2], arc.y[2]) + radius * std::abs(arc.angle[2]));
-      still = still && speed <= 1e-12 * std::sqrt(a * radius) && acceleration <= 1e-12 * a;
-    }
-    if (still)
-    {
-      for (int body : island.bodies)
-      {
-        Arc& arc = bodies[body].arc;
-        arc.x[1] = arc.y[1] = arc.angle[1] = arc.x[2] = arc.y[2] = arc.angle[2] = 0.0;
-        arc.degree = 0;
-        arc.horizon = std::numeric_limits<double>::infinity();
-        arc.end = Time::infinity();
-        arc.jerk = arc.angular_jerk = 0.0;
-      }
-      for (Rest& rest : island.rests)
-        rest.degree = 0;
-    }
+    Arc& arc = bodies[body].arc;
+    arc.x[1] = arc.y[1] = arc.angle[1] = arc.x[2] = arc.y[2] = arc.angle[2] = 0.0;
+    arc.degree = 0;
+    arc.horizon = std::numeric_limits<double>::infinity();
+    arc.end = Time::infinity();
+    arc.jerk = arc.angular_jerk = 0.0;
   }
-  promiseIsland(name, time);
+  for (Rest& rest : island.rests)
+    rest.degree = 0;
 }
 
 /// The island's next event: the end of its arcs, a force that would pull, or a vertex that leaves its face.
@@ -189,30 +197,46 @@ void World::Engine::endDecay(Member& m) const
     m.omega = 0.0;
 }
 
-/// The arcs of an island without contact reach their end: the same motion, expanded anew. No trajectory changes, so no other promise does.
+/// Whether rounding has moved the touches of island_state_ that carry force by more than the coordinates resolve.
+bool World::Engine::hasDrifted(Island& island, const Time& time)
+{
+  const Member still;
+  const auto member = [&](int index) -> const Member& { return index < 0 ? still : island_state_[index]; };
+  double speed = 0.0;
+  for (const Member& m : island_state_)
+    speed = std::max(speed, m.velocity.norm() + bodies[m.body].shape.radius * std::abs(m.omega));
+  return std::any_of(island.rests.begin(), island.rests.end(), [&](Rest& rest) {
+    Touch& t = rest.touch;
+    locate(t, bodies[t.a], frame(t.a, time), bodies[t.b], frame(t.b, time));
+    return std::abs(t.gap) > resolution_ || std::abs(normalVelocity(t, member(t.member_a), member(t.member_b))) > kSpeedNoise * speed;
+  });
+}
+
+/// The arcs of an island reach their end: the same motion, expanded anew. No trajectory changes, so no other promise does.
 void World::Engine::continueIsland(int name, const Time& time)
 {
   Island& island = islands_[name];
   island_state_.clear();
   for (int body : island.bodies)
   {
-    closeArc(body, time);
-    const Snapshot now = snapshot(body, time);
-    Member m;
-    m.body = body;
+    Member m = memberAt(body, time);
     m.frame = frame(body, time);
-    m.angle = now.angle;
-    m.velocity = now.velocity;
-    m.omega = now.omega;
     if (field_.damping > 0.0)
       endDecay(m);
     island_state_.push_back(m);
   }
+  if (hasDrifted(island, time))
+  {
+    seeds_.assign(1, name);
+    resolve(time);
+    return;
+  }
+  for (int body : island.bodies)
+    closeArc(body, time);
   closeSprings(name, time);
-  flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
+  move(island, time);
   for (int body : island.bodies)
   {
-    cache_[body].time = Time::infinity();
     promiseCell(body, time);
     charge(body, bodies[body].arc.degree);
     chargeEvent(body, time);

@@ -61,9 +61,7 @@ void World::Engine::report(const Time& time, bool last)
     ended.member_a = member_of_[ended.a];
     ended.member_b = member_of_[ended.b];
     const Member &a = group_.members[ended.member_a], &b = group_.members[ended.member_b];
-    ended.arm = a.frame.rotate(bodies[ended.a].shape.vertices[ended.vertex]);
-    ended.normal = b.frame.rotate(bodies[ended.b].shape.faces[ended.face].normal);
-    ended.reach = a.frame.position + ended.arm - b.frame.position;
+    locate(ended, bodies[ended.a], a.frame, bodies[ended.b], b.frame);
     ended.approach = normalVelocity(ended, a, b);
     ContactEvent contact = contactOf(ended, ContactKind::RestEnd);
     contacts.push_back(contact);

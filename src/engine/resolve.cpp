@@ -86,14 +86,13 @@ void World::Engine::freeAcceleration(Member& m) const
   }
 }
 
-int World::Engine::memberOf(int body, const Time& time)
+/// The body as its arc has it, its frame without the directions.
+Member World::Engine::memberAt(int body, const Time& time)
 {
-  if (member_of_[body] >= 0)
-    return member_of_[body];
   const Snapshot& now = snapshot(body, time);
   Member m;
   m.body = body;
-  m.frame = frame(body, time);
+  m.frame.position = now.position;
   m.angle = now.angle;
   m.velocity = now.velocity;
   m.omega = now.omega;
@@ -101,6 +100,15 @@ int World::Engine::memberOf(int body, const Time& time)
   m.alpha = now.alpha;
   m.inverse_mass = bodies[body].inverse_mass;
   m.inverse_inertia = bodies[body].inverse_inertia;
+  return m;
+}
+
+int World::Engine::memberOf(int body, const Time& time)
+{
+  if (member_of_[body] >= 0)
+    return member_of_[body];
+  Member m = memberAt(body, time);
+  m.frame = frame(body, time);
   member_of_[body] = static_cast<int>(group_.members.size());
   group_.members.push_back(m);
   return member_of_[body];
@@ -144,19 +152,8 @@ void World::Engine::findTouches(const Time& time, int round)
       const int other = pair.a == body ? pair.b : pair.a;
       const Body &first = bodies[pair.a], &second = bodies[pair.b];
       const auto viewed = [&](int which) {
-        Member view;
         const int k = member_of_[which];
-        if (k >= 0)
-          return group_.members[k];
-        const Snapshot& now = snapshot(which, time);
-        view.body = which;
-        view.frame.position = now.position;
-        view.angle = now.angle;
-        view.velocity = now.velocity;
-        view.omega = now.omega;
-        view.acceleration = now.acceleration;
-        view.alpha = now.alpha;
-        return view;
+        return k >= 0 ? group_.members[k] : memberAt(which, time);
       };
       Member view_a = viewed(pair.a), view_b = viewed(pair.b);
       const double shell = 0.5 * scene.tolerance;
@@ -275,14 +272,9 @@ void World::Engine::settle()
       return;
     for (Touch& t : group_.touches)
     {
-      const Member &a = group_.members[t.member_a], &b = group_.members[t.member_b];
-      const Face& face = bodies[t.b].shape.faces[t.face];
-      t.arm = a.frame.rotate(bodies[t.a].shape.vertices[t.vertex]);
-      t.reach = a.frame.position + t.arm - b.frame.position;
-      if (!t.corner)
-        t.normal = b.frame.rotate(face.normal);
-      t.separation += t.normal.dot(t.reach) - face.offset - t.gap;
-      t.gap = t.normal.dot(t.reach) - face.offset;
+      const double before = t.gap;
+      locate(t, bodies[t.a], group_.members[t.member_a].frame, bodies[t.b], group_.members[t.member_b].frame);
+      t.separation += t.gap - before;
     }
     if (moved <= 8.0 * resolution_)
       return;

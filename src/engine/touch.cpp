@@ -5,6 +5,17 @@
 
 namespace block_world
 {
+void locate(Touch& touch, const Body& a, const Frame& frame_a, const Body& b, const Frame& frame_b)
+{
+  const Face& face = b.shape.faces[touch.face];
+  touch.arm = frame_a.rotate(a.shape.vertices[touch.vertex]);
+  touch.reach = frame_a.position - frame_b.position + touch.arm;
+  if (!touch.corner)
+    touch.normal = frame_b.rotate(face.normal);
+  touch.gap = touch.normal.dot(touch.reach) - face.offset;
+  touch.along = perp(touch.normal).dot(touch.reach - frame_b.rotate(face.start));
+}
+
 double normalVelocity(const Touch& touch, const Member& a, const Member& b)
 {
   return touch.normal.dot(a.velocity + a.omega * perp(touch.arm) - b.velocity - b.omega * perp(touch.reach));
@@ -63,15 +74,12 @@ void TouchFinder::gather(const Candidate& candidate, const Body& face_body, cons
                          const Body& vertex_body, const Member& vertex_member, std::vector<Touch>& touches) const
 {
   const Face& face = face_body.shape.faces[candidate.face];
-  const Vec2 tangent = perp(candidate.normal);
-  const Vec2 start = face_member.frame.rotate(face.start);
   for (std::size_t k = 0; k < vertex_body.shape.vertices.size(); ++k)
   {
     Touch touch;
-    touch.arm = vertex_member.frame.rotate(vertex_body.shape.vertices[k]);
-    touch.reach = vertex_member.frame.position - face_member.frame.position + touch.arm;
-    touch.gap = candidate.normal.dot(touch.reach) - face.offset;
-    touch.along = tangent.dot(touch.reach - start);
+    touch.vertex = static_cast<int>(k);
+    touch.face = candidate.face;
+    locate(touch, vertex_body, vertex_member.frame, face_body, face_member.frame);
     if (touch.gap > 0.5 * tolerance_)
       continue;
     const bool endless = std::isinf(face.length);
@@ -79,9 +87,6 @@ void TouchFinder::gather(const Candidate& candidate, const Body& face_body, cons
       continue;
     touch.a = vertex_member.body;
     touch.b = face_member.body;
-    touch.vertex = static_cast<int>(k);
-    touch.face = candidate.face;
-    touch.normal = candidate.normal;
     touch.separation = candidates_.front().gap;
     touch.elasticity = std::min(face_body.elasticity, vertex_body.elasticity);
     touches.push_back(touch);

@@ -44,6 +44,9 @@ struct Touch
   bool active = false;    ///< carries force: a constraint of the next arcs
 };
 
+/// Where the touch is with its bodies in these frames: arm, reach, normal (a corner's stays), gap and place along the face.
+void locate(Touch& touch, const Body& a, const Frame& frame_a, const Body& b, const Frame& frame_b);
+
 /// (v_a - v_b).n, the rate of the gap.
 double normalVelocity(const Touch& touch, const Member& a, const Member& b);
 /// g'' at the given accelerations: n.(a_a + alpha_a perp r - w_a^2 r - a_b) - 2 w_b n.perp(d') - alpha_b n.perp(d) - w_b^2 n.d.
