@@ -91,9 +91,9 @@ Case Shrinker::shrink()
   {
     smaller = startLater();
     smaller = dropBlocks() || smaller;
-    smaller = dropFrom(&Case::script) || smaller;
-    smaller = dropFrom(&Scene::inputs) || smaller;
-    smaller = dropFrom(&Scene::springs) || smaller;
+    smaller = dropFrom([](Case& c) -> auto& { return c.script; }) || smaller;
+    smaller = dropFrom([](Case& c) -> auto& { return c.scene.inputs; }) || smaller;
+    smaller = dropFrom([](Case& c) -> auto& { return c.scene.springs; }) || smaller;
     smaller = simplify() || smaller;
     smaller = endEarlier() || smaller;
   }
@@ -131,60 +131,45 @@ bool Shrinker::endEarlier()
   return shorter.duration < 0.999 * case_.duration && tryOn(shorter);
 }
 
-/// Halves first, then quarters, down to single ones; each with all that needs it.
+/// Tries to do without some of the items that count() gives the number of: `largest` at a time first, then half as many, down to single ones.
+template <class Count, class Without>
+bool Shrinker::dropSome(std::size_t largest, const Count& count, const Without& without)
+{
+  bool any = false;
+  for (std::size_t size = largest; size > 0; size /= 2)
+    for (std::size_t first = 0; first < count();)
+    {
+      if (tryOn(without(first, std::min(first + size, count()))))
+        any = true;
+      else
+        first += size;
+    }
+  return any;
+}
+
+/// Each with all that needs it.
 bool Shrinker::dropBlocks()
 {
-  bool any = false;
-  for (std::size_t size = case_.scene.blocks.size() / 2; size > 0; size /= 2)
-    for (std::size_t first = 0; first < case_.scene.blocks.size();)
-    {
-      Case less = case_;
-      for (std::size_t i = first; i < std::min(first + size, case_.scene.blocks.size()); ++i)
-        less = without(less, case_.scene.blocks[i].name);
-      if (tryOn(less))
-        any = true;
-      else
-        first += size;
-    }
-  return any;
+  const auto count = [&] { return case_.scene.blocks.size(); };
+  return dropSome(count() / 2, count, [&](std::size_t first, std::size_t last) {
+    Case less = case_;
+    for (std::size_t i = first; i < last; ++i)
+      less = without(less, case_.scene.blocks[i].name);
+    return less;
+  });
 }
 
-/// The same for what nothing else needs.
+/// list: gives a case's list of what nothing else needs.
 template <class List>
-bool Shrinker::dropFrom(List Case::*list)
+bool Shrinker::dropFrom(const List& list)
 {
-  bool any = false;
-  for (std::size_t size = (case_.*list).size(); size > 0; size /= 2)
-    for (std::size_t first = 0; first < (case_.*list).size();)
-    {
-      Case less = case_;
-      const auto begin = (less.*list).begin() + static_cast<long>(first);
-      (less.*list).erase(begin, begin + static_cast<long>(std::min(size, (less.*list).size() - first)));
-      if (tryOn(less))
-        any = true;
-      else
-        first += size;
-    }
-  return any;
-}
-
-template <class List>
-bool Shrinker::dropFrom(List Scene::*list)
-{
-  bool any = false;
-  for (std::size_t size = (case_.scene.*list).size(); size > 0; size /= 2)
-    for (std::size_t first = 0; first < (case_.scene.*list).size();)
-    {
-      Case less = case_;
-      List& items = less.scene.*list;
-      const auto begin = items.begin() + static_cast<long>(first);
-      items.erase(begin, begin + static_cast<long>(std::min(size, items.size() - first)));
-      if (tryOn(less))
-        any = true;
-      else
-        first += size;
-    }
-  return any;
+  const auto count = [&] { return list(case_).size(); };
+  return dropSome(count(), count, [&](std::size_t first, std::size_t last) {
+    Case less = case_;
+    const auto begin = list(less).begin();
+    list(less).erase(begin + static_cast<long>(first), begin + static_cast<long>(last));
+    return less;
+  });
 }
 
 bool Shrinker::simplify()

@@ -30,10 +30,10 @@ private:
   bool endEarlier();
   bool dropBlocks();
   bool simplify();
+  template <class Count, class Without>
+  bool dropSome(std::size_t largest, const Count& count, const Without& without);
   template <class List>
-  bool dropFrom(List Case::*list);
-  template <class List>
-  bool dropFrom(List block_world::Scene::*list);
+  bool dropFrom(const List& list);
   bool outOfTime() const;
 
   Case case_;

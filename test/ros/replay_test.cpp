@@ -304,6 +304,18 @@ TEST_F(Replaying, RefusesWhatIsNoBag)
   EXPECT_EQ(replay(file, "--unknown").status, 2);
 }
 
+/// A bag without its index: replay says what to do, and then there are more than so many states.
+void expectMended(const std::string& bag, int states)
+{
+  const Outcome cut = replay(bag);
+  EXPECT_EQ(cut.status, 2);
+  EXPECT_TRUE(has(cut.text, "rosbag reindex")) << cut.text;
+  EXPECT_EQ(runCommand("rosbag reindex -q " + bag).status, 0);
+  const Outcome rest = replay(bag);
+  EXPECT_EQ(rest.status, 0) << rest.text;
+  EXPECT_GT(std::atoi(rest.text.c_str()), states) << rest.text;
+}
+
 // A program killed while it records, as by kill -9: what was written replays once it is indexed.
 TEST_F(Replaying, TheRestOfAKilledRecording)
 {
@@ -322,27 +334,14 @@ TEST_F(Replaying, TheRestOfAKilledRecording)
     _exit(0);  // no buffer is flushed, no index is written
   }
   waitpid(child, nullptr, 0);
-  const std::string active = bag + ".active";
-  const Outcome cut = replay(active);
-  EXPECT_EQ(cut.status, 2);
-  EXPECT_TRUE(has(cut.text, "rosbag reindex")) << cut.text;
-  EXPECT_EQ(runCommand("rosbag reindex -q " + active).status, 0);
-  const Outcome rest = replay(active);
-  EXPECT_EQ(rest.status, 0) << rest.text;
-  EXPECT_GT(std::atoi(rest.text.c_str()), 2000) << rest.text;
+  expectMended(bag + ".active", 2000);
 }
 
 TEST_F(Replaying, TruncatedBag)
 {
   const std::string bag = driven(), half = path("half.bag");
   ASSERT_EQ(runCommand("head -c $(($(stat -c %s " + bag + ") * 2 / 3)) " + bag + " >" + half).status, 0);
-  const Outcome cut = replay(half);
-  EXPECT_EQ(cut.status, 2);
-  EXPECT_TRUE(has(cut.text, "rosbag reindex")) << cut.text;
-  EXPECT_EQ(runCommand("rosbag reindex -q " + half).status, 0);
-  const Outcome rest = replay(half);
-  EXPECT_EQ(rest.status, 0) << rest.text;
-  EXPECT_GT(std::atoi(rest.text.c_str()), 100) << rest.text;
+  expectMended(half, 100);
 }
 
 TEST_F(Replaying, WithoutScene)
