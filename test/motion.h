@@ -16,6 +16,7 @@ public:
   std::vector<SpringLink> links;
   Field field;
   std::vector<Rest> rests;
+  Works works;
   Time now;
   int arcs = 0;
   double worst_gap = 0.0;  ///< of the rests, looked at along every arc
@@ -54,7 +55,7 @@ public:
       t.member_b = member_of[t.b];
       locate(t, bodies[t.a], a.frame, bodies[t.b], b.frame);
     }
-    flow_.expand(bodies, links, field, now, members, rests);
+    flow_.expand(bodies, links, field, now, members, rests, works);
     ++arcs;
   }
 

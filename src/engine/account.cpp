@@ -7,39 +7,6 @@ namespace block_world
 {
 namespace
 {
-/// Coefficients of the derivative.
-Series derivative(const Series& c, int degree)
-{
-  Series d{};
-  for (int n = 1; n <= degree; ++n)
-    d[n - 1] = n * c[n];
-  return d;
-}
-
-/// Integral of the product a b over [0, s].
-double integrateProduct(const Series& a, const Series& b, int degree_a, int degree_b, double s)
-{
-  double sum = 0.0;
-  for (int n = degree_a + degree_b; n >= 0; --n)
-  {
-    double c = 0.0;
-    for (int j = std::max(0, n - degree_b); j <= std::min(n, degree_a); ++j)
-      c += a[j] * b[n - j];
-    sum = (sum + c / (n + 1)) * s;
-  }
-  return sum;
-}
-
-/// Cosine and sine of a body's angle along its arc.
-void directions(const Body& body, Series& c, Series& s)
-{
-  c.fill(0.0);
-  s.fill(0.0);
-  c[0] = std::cos(body.arc.angle[0]);
-  s[0] = std::sin(body.arc.angle[0]);
-  trigonometricSeries(body.arc.angle, body.arc.degree, kOrder, c, s);
-}
-
 Frame frameAt(const Body& body, const Time& time)
 {
   const Snapshot now = body.at(time);
@@ -47,115 +14,13 @@ Frame frameAt(const Body& body, const Time& time)
 }
 }  // namespace
 
-/// Work of thrusters and wrench, and loss by damping, since the start of the body's arc.
-World::Engine::Work World::Engine::arcWork(const Body& body, const Time& time) const
+/// What an island's arcs did since their start belongs to the account.
+void World::Engine::closeWorks(int island, const Time& time)
 {
-  Work work;
-  const double s = time - body.arc.start;
-  if (!(s > 0.0) || body.arc.degree == 0)
-    return work;
-  const int degree = body.arc.degree - 1;
-  const bool damped = field_.damping > 0.0;
-  if (!damped && !body.pushed())
-    return work;
-  const Series vx = derivative(body.arc.x, body.arc.degree), vy = derivative(body.arc.y, body.arc.degree);
-  if (damped)
-  {
-    const Series omega = derivative(body.arc.angle, body.arc.degree);
-    work.damping = field_.damping * (integrateProduct(vx, vx, degree, degree, s) + integrateProduct(vy, vy, degree, degree, s)) +
-                   field_.rotational_damping * integrateProduct(omega, omega, degree, degree, s);
-  }
-  if (body.pushed())
-  {
-    Series c, sn, fx, fy;
-    directions(body, c, sn);
-    for (int n = 0; n <= kOrder; ++n)
-    {
-      fx[n] = c[n] * body.push.x() - sn[n] * body.push.y();
-      fy[n] = sn[n] * body.push.x() + c[n] * body.push.y();
-    }
-    work.thrust = integrateProduct(fx, vx, kOrder, degree, s) + integrateProduct(fy, vy, kOrder, degree, s) +
-                  body.twist * (evaluate(body.arc.angle, body.arc.degree, s) - body.arc.angle[0]);
-  }
-  return work;
-}
-
-/// Energy that the damper of a spring took since the start of the arcs of its ends.
-double World::Engine::damperLoss(const Body& first, const Vec2& first_point, const Body* second, const Vec2& second_point,
-                                 double rest_length, double damping, const Time& time) const
-{
-  const double span = time - first.arc.start;
-  if (damping == 0.0 || !(span > 0.0))
-    return 0.0;
-  Series c, s, dx, dy;
-  directions(first, c, s);
-  for (int n = 0; n <= kOrder; ++n)
-  {
-    dx[n] = first.arc.x[n] + c[n] * first_point.x() - s[n] * first_point.y();
-    dy[n] = first.arc.y[n] + s[n] * first_point.x() + c[n] * first_point.y();
-  }
-  if (second == nullptr)
-  {
-    dx[0] -= second_point.x();
-    dy[0] -= second_point.y();
-  }
-  else
-  {
-    directions(*second, c, s);
-    for (int n = 0; n <= kOrder; ++n)
-    {
-      dx[n] -= second->arc.x[n] + c[n] * second_point.x() - s[n] * second_point.y();
-      dy[n] -= second->arc.y[n] + s[n] * second_point.x() + c[n] * second_point.y();
-    }
-  }
-  if (rest_length == 0.0)
-  {
-    const Series rx = derivative(dx, kOrder), ry = derivative(dy, kOrder);
-    return damping * (integrateProduct(rx, rx, kOrder - 1, kOrder - 1, span) + integrateProduct(ry, ry, kOrder - 1, kOrder - 1, span));
-  }
-  Series length{}, ux{}, uy{};
-  const bool coincident = endsMeet(dx[0], dy[0], std::abs(first.arc.x[0]) + std::abs(first.arc.y[0]) + rest_length);
-  for (int k = 0; k <= (coincident ? kOrder - 1 : kOrder); ++k)
-    lengthSeries(dx, dy, k, coincident, length, ux, uy);
-  const Series rate = derivative(length, kOrder);
-  return damping * integrateProduct(rate, rate, kOrder - 1, kOrder - 1, span);
-}
-
-/// Losses of all dampers at the bodies of an island, each spring once.
-double World::Engine::springLoss(int island, const Time& time) const
-{
-  double loss = 0.0;
-  for (int index : islands_[island].bodies)
-  {
-    const Body& body = bodies[index];
-    if (body.mouse.active)
-      loss += damperLoss(body, body.mouse.attach, nullptr, body.mouse.anchor, 0.0, body.mouse.damping, time);
-    for (int spring : body.springs)
-    {
-      const SpringLink& link = links_[spring];
-      const bool first_moves = !bodies[link.first].fixed;
-      if (link.damping == 0.0 || (first_moves && link.first != index))
-        continue;
-      if (first_moves)
-        loss += damperLoss(body, link.first_point, link.second < 0 ? nullptr : &bodies[link.second], link.second_point,
-                           link.rest_length, link.damping, time);
-      else
-        loss += damperLoss(body, link.second_point, &bodies[link.first], link.first_point, link.rest_length, link.damping, time);
-    }
-  }
-  return loss;
-}
-
-void World::Engine::closeArc(int body, const Time& time)
-{
-  const Work work = arcWork(bodies[body], time);
-  thrust_work_ += work.thrust;
-  damping_loss_ += work.damping;
-}
-
-void World::Engine::closeSprings(int island, const Time& time)
-{
-  damping_loss_ += springLoss(island, time);
+  const Works& works = islands_[island].works;
+  const double span = time - bodies[island].arc.start;
+  thrust_work_ += evaluate(works.thrust, works.degree, span);
+  damping_loss_ += evaluate(works.loss, works.degree, span);
 }
 
 /// Before the forces on a body change: what its island's arcs did until now belongs to the former forces. New arcs begin here, straight ones until
@@ -163,9 +28,7 @@ void World::Engine::closeSprings(int island, const Time& time)
 void World::Engine::closeIsland(int body, const Time& time)
 {
   const int island = bodies[body].island;
-  for (int i : islands_[island].bodies)
-    closeArc(i, time);
-  closeSprings(island, time);
+  closeWorks(island, time);
   for (int i : islands_[island].bodies)
     putAt(i, bodies[i].stateAt(time), time);
 }
@@ -244,13 +107,12 @@ EnergyAccount World::Engine::energy() const
   energy.damping_loss = damping_loss_;
   for (int i = 0; i < block_count; ++i)
   {
-    if (bodies[i].fixed)
+    if (bodies[i].fixed || bodies[i].island != i)
       continue;
-    const Work work = arcWork(bodies[i], now);
-    energy.thrust_work += work.thrust;
-    energy.damping_loss += work.damping;
-    if (bodies[i].island == i)
-      energy.damping_loss += springLoss(i, now);
+    const Works& works = islands_[i].works;
+    const double span = now - bodies[i].arc.start;
+    energy.thrust_work += evaluate(works.thrust, works.degree, span);
+    energy.damping_loss += evaluate(works.loss, works.degree, span);
   }
   energy.spring_work = spring_work_;
   energy.command_work = command_work_;

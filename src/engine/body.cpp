@@ -2,39 +2,51 @@
 
 namespace block_world
 {
+namespace
+{
+/// Value, first and half the second derivative of x, y and the angle in one pass of Horner's scheme; x and y side by side.
+struct Horner
+{
+  Vec2 place = Vec2::Zero(), rate = Vec2::Zero(), bend = Vec2::Zero();
+  double angle = 0.0, spin = 0.0, twist = 0.0;
+
+  /// What of it is not asked for is not computed: this is inlined.
+  Horner(const Arc& arc, double s)
+  {
+    for (int n = arc.degree; n >= 0; --n)
+    {
+      bend = bend * s + rate;
+      twist = twist * s + spin;
+      rate = rate * s + place;
+      spin = spin * s + angle;
+      place = place * s + Vec2(arc.x[n], arc.y[n]);
+      angle = angle * s + arc.angle[n];
+    }
+  }
+};
+}  // namespace
+
 Snapshot Body::at(const Time& time) const
 {
-  Snapshot now;
-  const double s = arc.degree > 0 ? time - arc.start : 0.0;
-  if (arc.degree <= 2)
-  {
-    now.position = Vec2(arc.x[0] + s * (arc.x[1] + s * arc.x[2]), arc.y[0] + s * (arc.y[1] + s * arc.y[2]));
-    now.angle = arc.angle[0] + s * (arc.angle[1] + s * arc.angle[2]);
-    now.velocity = Vec2(arc.x[1] + 2.0 * s * arc.x[2], arc.y[1] + 2.0 * s * arc.y[2]);
-    now.omega = arc.angle[1] + 2.0 * s * arc.angle[2];
-    now.acceleration = Vec2(2.0 * arc.x[2], 2.0 * arc.y[2]);
-    now.alpha = 2.0 * arc.angle[2];
-    return now;
-  }
-  const int n = arc.degree;
-  now.position = Vec2(evaluate(arc.x, n, s), evaluate(arc.y, n, s));
-  now.angle = evaluate(arc.angle, n, s);
-  now.velocity = Vec2(evaluateDerivative(arc.x, n, s), evaluateDerivative(arc.y, n, s));
-  now.omega = evaluateDerivative(arc.angle, n, s);
-  now.acceleration = Vec2(evaluateSecondDerivative(arc.x, n, s), evaluateSecondDerivative(arc.y, n, s));
-  now.alpha = evaluateSecondDerivative(arc.angle, n, s);
-  return now;
+  const Horner now(arc, arc.degree > 0 ? time - arc.start : 0.0);
+  Snapshot snapshot;
+  snapshot.position = now.place;
+  snapshot.angle = now.angle;
+  snapshot.velocity = now.rate;
+  snapshot.omega = now.spin;
+  snapshot.acceleration = 2.0 * now.bend;
+  snapshot.alpha = 2.0 * now.twist;
+  return snapshot;
 }
 
 MotionState Body::stateAt(const Time& time) const
 {
-  const double s = arc.degree > 0 ? time - arc.start : 0.0;
-  const int n = arc.degree;
+  const Horner now(arc, arc.degree > 0 ? time - arc.start : 0.0);
   MotionState state;
-  state.position = Vec2(evaluate(arc.x, n, s), evaluate(arc.y, n, s));
-  state.angle = evaluate(arc.angle, n, s);
-  state.velocity = Vec2(evaluateDerivative(arc.x, n, s), evaluateDerivative(arc.y, n, s));
-  state.omega = evaluateDerivative(arc.angle, n, s);
+  state.position = now.place;
+  state.angle = now.angle;
+  state.velocity = now.rate;
+  state.omega = now.spin;
   return state;
 }
 

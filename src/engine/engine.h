@@ -18,6 +18,7 @@ struct Island
 {
   std::vector<int> bodies;
   std::vector<Rest> rests;
+  Works works;
 };
 
 /// The world behind World: arcs, promises, and what happens when a promise comes due.
@@ -130,16 +131,7 @@ private:
   void continueIsland(int island, const Time& time);
 
   // account.cpp: energies and works
-  struct Work
-  {
-    double thrust = 0.0, damping = 0.0;
-  };
-  Work arcWork(const Body& body, const Time& time) const;
-  double damperLoss(const Body& first, const Vec2& first_point, const Body* second, const Vec2& second_point, double rest_length,
-                    double damping, const Time& time) const;
-  double springLoss(int island, const Time& time) const;
-  void closeArc(int body, const Time& time);
-  void closeSprings(int island, const Time& time);
+  void closeWorks(int island, const Time& time);
   void closeIsland(int body, const Time& time);
   void putAt(int body, const MotionState& state, const Time& time);
   void stored(const Time& time, EnergyAccount& energy) const;

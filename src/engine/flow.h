@@ -20,22 +20,30 @@ struct Rest
   int degree = 0;  ///< of the arcs; the force's is lower by two
 };
 
+/// Works along the arcs of an island since their start, J.
+struct Works
+{
+  Series thrust{};  ///< done by thrusters and wrenches
+  Series loss{};    ///< taken by damping and by the dampers of springs
+  int degree = 0;
+};
+
 /// Points fixed in two bodies (or one in the world) as series: what a spring needs along an arc.
 struct SpringSeries
 {
-  Series from_x{}, from_y{}, to_x{}, to_y{};  ///< arms R p of the two ends
-  Series dx{}, dy{};                          ///< from the second end to the first
-  Series length{}, ux{}, uy{};                ///< of a spring with a rest length
-  bool coincident = false;                    ///< its ends meet at the start
-  Series fx{}, fy{};                          ///< force on the first end
+  VectorSeries from, to;    ///< arms R p of the two ends
+  VectorSeries d;           ///< from the second end to the first
+  Series length;            ///< of a spring with a rest length
+  VectorSeries u;           ///< and its direction
+  Series tension;           ///< of such a spring, N
+  bool coincident = false;  ///< its ends meet at the start: their distance is the rounding of their places
+  Vec2 force;               ///< on the first end, of the newest order
+  VectorSeries turned;      ///< forces turned by -90 degrees: arm times this is the torque
 };
 
-/// Length and direction of the vector (dx, dy) up to an order, from length^2 = d.d and direction x length = d; values of lower orders are there
+/// Length and direction of the vector d up to an order, from length^2 = d.d and direction x length = d; values of lower orders are there
 /// already. Where the ends meet at the start the length is s |e| with e = d / s, so that the order above is needed of d.
-void lengthSeries(const Series& dx, const Series& dy, int order, bool coincident, Series& length, Series& ux, Series& uy);
-
-/// Whether the ends meet: their distance is the rounding of their places.
-bool endsMeet(double dx, double dy, double size);
+void lengthSeries(SpringSeries& spring, int order);
 
 /// Expands the motion of an island, bodies that move as one, into arcs: Taylor series by recurrences, with resting contact enforced on the
 /// position at every order (structural analysis of DAEs, Nedialkov & Pryce; no index reduction, hence no drift). One Cholesky factor of
@@ -44,48 +52,61 @@ class Flow
 {
 public:
   /// members: state of the island's bodies at start, all movable; rests: their active touches, linearly independent, member indices into
-  /// `members` or -1 for a fixed side. Writes the arcs of the bodies and the forces of the rests.
+  /// `members` or -1 for a fixed side. Writes the arcs of the bodies, the forces of the rests and the works.
   void expand(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Field& field, const Time& start,
-              const std::vector<Member>& members, std::vector<Rest>& rests);
+              const std::vector<Member>& members, std::vector<Rest>& rests, Works& works);
 
 private:
   struct BodyWork
   {
-    Series c{}, s{};
+    VectorSeries direction;  ///< cosine and sine of the angle since the start
+    Series rate;             ///< n angle[n]
     bool rotating = false, trigonometric = false;
-    double next_c = 0.0, next_s = 0.0;  ///< order n + 2 without its newest angle coefficient
-    double ax = 0.0, ay = 0.0, alpha = 0.0;
+    Vec2 known = Vec2::Zero();  ///< direction of the newest order without its angle coefficient
+    Vec2 push = Vec2::Zero();   ///< at the start, in the world
+    Vec2 a = Vec2::Zero();
+    double alpha = 0.0;
     double ax_size = 0.0, ay_size = 0.0, alpha_size = 0.0;
   };
   struct RestWork
   {
-    Series nx{}, ny{}, px{}, py{}, dx{}, dy{}, ta{}, tb{};
+    VectorSeries normal, arm, reach;
+    VectorSeries turned;  ///< normals turned by -90 degrees: arm times this is the torque of 1 N
+    VectorSeries levers;  ///< these torques on a and on b
     int a = -1, b = -1;
   };
   struct LinkWork
   {
-    const SpringLink* link = nullptr;
-    const MouseSpring* mouse = nullptr;
-    int first = -1, second = -1;  ///< work indices; -1 = fixed
-    Vec2 first_point = Vec2::Zero(), second_point = Vec2::Zero();
+    int first = -1, second = -1;  ///< work indices; second may be -1 = fixed
     double stiffness = 0.0, rest_length = 0.0, damping = 0.0;
+    Vec2 from = Vec2::Zero(), to = Vec2::Zero();  ///< arms at the start
+    Vec2 world = Vec2::Zero();                    ///< the second end where it does not move
     SpringSeries series;
-    Vec2 world = Vec2::Zero();  ///< the second end where it does not move
   };
 
   void begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
              const std::vector<Member>& members, std::vector<Rest>& rests);
-  void trigonometry(int n);
+  void turn(int n);
   void freeAcceleration(int n);
-  void contactGeometry(int n);
+  void placeRests(int n);
+  void findLevers(int n);
   void contactKnown(int n);
   void contactSolve(int n);
-  bool store(int n);
-  void finish(const std::vector<Body>& bodies, int degree);
+  void store(int n);
   bool endsEarly() const;
+  bool turns(const RestWork& rest) const
+  {
+    return rest.b >= 0 && work_[rest.b].rotating;
+  }
+
+  // horizon.cpp: how long the arcs last, and what follows from them
+  double horizon(int degree) const;
+  void finish(const std::vector<Body>& bodies, int degree);
+  void findWorks(int degree, Works& works);
 
   // springs.cpp
-  void gatherLinks(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members);
+  void gatherLinks(const std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members);
+  void placeEnds(LinkWork& link, int n);
   void springForce(LinkWork& link, int n);
 
   const Field* field_ = nullptr;

@@ -21,6 +21,12 @@ inline Vec2 perp(const Vec2& a)
   return Vec2(-a.y(), a.x());
 }
 
+/// v turned by a direction, the cosine and sine of an angle.
+inline Vec2 turned(const Vec2& direction, const Vec2& v)
+{
+  return direction.x() * v + direction.y() * perp(v);
+}
+
 /// Position of a body's centre of mass with the cosine and sine of its angle.
 struct Frame
 {

@@ -100,7 +100,7 @@ void World::Engine::launch(const Time& time, const std::vector<int>& members)
 /// New arcs of an island from island_state_ on.
 void World::Engine::move(Island& island, const Time& time)
 {
-  flow_.expand(bodies, links_, field_, time, island_state_, island.rests);
+  flow_.expand(bodies, links_, field_, time, island_state_, island.rests, island.works);
   for (int body : island.bodies)
     cache_[body].time = Time::infinity();
   if (isStill(island))
@@ -138,6 +138,7 @@ void World::Engine::sleep(Island& island)
   }
   for (Rest& rest : island.rests)
     rest.degree = 0;
+  island.works.degree = 0;
 }
 
 /// The island's next event: the end of its arcs, a force that would pull, or a vertex that leaves its face.
@@ -231,9 +232,7 @@ void World::Engine::continueIsland(int name, const Time& time)
     resolve(time);
     return;
   }
-  for (int body : island.bodies)
-    closeArc(body, time);
-  closeSprings(name, time);
+  closeWorks(name, time);
   move(island, time);
   for (int body : island.bodies)
   {

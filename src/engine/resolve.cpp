@@ -246,12 +246,8 @@ void World::Engine::resolve(const Time& time)
   }
   settle();
   for (const Member& m : group_.members)
-    if (!bodies[m.body].fixed)
-    {
-      closeArc(m.body, time);
-      if (bodies[m.body].island == m.body)
-        closeSprings(m.body, time);
-    }
+    if (!bodies[m.body].fixed && bodies[m.body].island == m.body)
+      closeWorks(m.body, time);
   regroup(time);
   lookAtPairs(time);
   for (const Member& m : group_.members)

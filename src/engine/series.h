@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "geometry.h"
+
 namespace block_world
 {
 /// Highest power of time in an arc. Jorba & Zou (2005): the cheapest order for a relative error eps is about 1 - ln(eps)/2.
@@ -9,6 +11,7 @@ constexpr int kOrder = 16;
 
 /// Coefficients of 1, s, s^2, ... with s the time since the start of an arc.
 using Series = std::array<double, kOrder + 1>;
+using VectorSeries = std::array<Vec2, kOrder + 1>;
 
 /// sum_n c_n s^n up to the degree.
 inline double evaluate(const Series& c, int degree, double s)
@@ -44,6 +47,55 @@ inline double cauchy(const Series& a, const Series& b, int n)
   for (int j = 0; j <= n; ++j)
     sum += a[j] * b[n - j];
   return sum;
+}
+
+/// Terms j = first ... last of coefficient n of a product, a scalar's with a vector's. Two sums, so that none waits for the other.
+inline Vec2 cauchy(const Series& a, const VectorSeries& b, int n, int first, int last)
+{
+  Vec2 even = Vec2::Zero(), odd = Vec2::Zero();
+  int j = first;
+  for (; j < last; j += 2)
+  {
+    even += a[j] * b[n - j];
+    odd += a[j + 1] * b[n - j - 1];
+  }
+  if (j == last)
+    even += a[j] * b[n - j];
+  return even + odd;
+}
+
+/// The same of a scalar product.
+inline double cauchy(const VectorSeries& a, const VectorSeries& b, int n, int first, int last)
+{
+  Vec2 even = Vec2::Zero(), odd = Vec2::Zero();
+  int j = first;
+  for (; j < last; j += 2)
+  {
+    even += a[j].cwiseProduct(b[n - j]);
+    odd += a[j + 1].cwiseProduct(b[n - j - 1]);
+  }
+  if (j == last)
+    even += a[j].cwiseProduct(b[n - j]);
+  return (even + odd).sum();
+}
+
+/// Terms first ... n - first of coefficient n of a square, each two that are equal once.
+inline double cauchySquare(const Series& a, int n, int first)
+{
+  double half = 0.0;
+  int j = first;
+  for (; 2 * j < n; ++j)
+    half += a[j] * a[n - j];
+  return 2.0 * half + (2 * j == n ? a[j] * a[j] : 0.0);
+}
+
+inline double cauchySquare(const VectorSeries& a, int n, int first)
+{
+  Vec2 half = Vec2::Zero();
+  int j = first;
+  for (; 2 * j < n; ++j)
+    half += a[j].cwiseProduct(a[n - j]);
+  return 2.0 * half.sum() + (2 * j == n ? a[j].squaredNorm() : 0.0);
 }
 
 /// First zero after 0 of g + v s + a s^2 / 2 for g >= 0, without cancellation; infinity if there is none.

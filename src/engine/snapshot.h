@@ -211,10 +211,17 @@ void exchange(A& archive, Rest& rest)
 }
 
 template <class A>
+void exchange(A& archive, Works& works)
+{
+  auto& [thrust, loss, degree] = works;
+  archive(thrust, loss, degree);
+}
+
+template <class A>
 void exchange(A& archive, Island& island)
 {
-  auto& [bodies, rests] = island;
-  archive(bodies, rests);
+  auto& [bodies, rests, works] = island;
+  archive(bodies, rests, works);
 }
 
 }  // namespace block_world

@@ -6,143 +6,126 @@
 
 namespace block_world
 {
-bool endsMeet(double dx, double dy, double size)
+void lengthSeries(SpringSeries& spring, int order)
 {
-  return std::hypot(dx, dy) <= kCancelled * size;
-}
-
-void lengthSeries(const Series& dx, const Series& dy, int order, bool coincident, Series& length, Series& ux, Series& uy)
-{
-  const int shift = coincident ? 1 : 0;
-  const auto at = [shift](const Series& series, int n) { return series[n + shift]; };
-  double square = 0.0;
-  for (int j = 0; j <= order; ++j)
-    square += at(dx, j) * at(dx, order - j) + at(dy, j) * at(dy, order - j);
-  if (coincident)
+  const int shift = spring.coincident ? 1 : 0;
+  VectorSeries& u = spring.u;
+  Series& length = spring.length;
+  // Coefficients of d / s^shift are those of d further on, so those of its square stand twice as far.
+  double square = cauchySquare(spring.d, order + 2 * shift, shift);
+  if (spring.coincident)
     length[0] = 0.0;
   if (order == 0)
     length[shift] = std::sqrt(square);
   else
   {
-    for (int j = 1; j < order; ++j)
-      square -= at(length, j) * at(length, order - j);
+    square -= cauchySquare(length, order + 2 * shift, 1 + shift);
     length[order + shift] = length[shift] > 0.0 ? square / (2.0 * length[shift]) : 0.0;
   }
-  double x = at(dx, order), y = at(dy, order);
-  for (int j = 1; j <= order; ++j)
-  {
-    x -= at(length, j) * ux[order - j];
-    y -= at(length, j) * uy[order - j];
-  }
+  const Vec2 rest = spring.d[order + shift] - cauchy(length, u, order + shift, 1 + shift, order + shift);
   // Ends that meet without moving apart have no direction, and pull nowhere.
-  ux[order] = length[shift] > 0.0 ? x / length[shift] : 0.0;
-  uy[order] = length[shift] > 0.0 ? y / length[shift] : 0.0;
+  u[order] = length[shift] > 0.0 ? Vec2(rest / length[shift]) : Vec2(Vec2::Zero());
 }
 
-void Flow::gatherLinks(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members)
+void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members)
 {
-  links_.clear();
   const auto indexOf = [&](int body) {
     for (std::size_t i = 0; i < members.size(); ++i)
       if (members[i].body == body)
         return static_cast<int>(i);
     return -1;
   };
+  // The series of former links are written over.
+  std::size_t used = 0;
+  const auto add = [&](double stiffness, double rest_length, double damping) -> LinkWork& {
+    if (used == links_.size())
+      links_.emplace_back();
+    LinkWork& w = links_[used++];
+    w.first = w.second = -1;
+    w.stiffness = stiffness;
+    w.rest_length = rest_length;
+    w.damping = damping;
+    return w;
+  };
   for (std::size_t i = 0; i < members.size(); ++i)
   {
     const Body& body = *body_[i];
     if (body.mouse.active)
     {
-      LinkWork w;
-      w.mouse = &body.mouse;
+      LinkWork& w = add(body.mouse.stiffness, 0.0, body.mouse.damping);
       w.first = static_cast<int>(i);
-      w.first_point = body.mouse.attach;
+      w.from = members[i].frame.rotate(body.mouse.attach);
       w.world = body.mouse.anchor;
-      w.stiffness = body.mouse.stiffness;
-      w.rest_length = 0.0;
-      w.damping = body.mouse.damping;
-      links_.push_back(w);
     }
     for (int index : body.springs)
     {
       const SpringLink& link = links[index];
-      const int first = indexOf(link.first);
+      int first = indexOf(link.first), second = link.second < 0 ? -1 : indexOf(link.second);
       // A spring between two members is listed by both: take it once.
       if (first >= 0 && first != static_cast<int>(i))
         continue;
-      LinkWork w;
-      w.link = &link;
-      w.first = first;
-      w.second = link.second < 0 ? -1 : indexOf(link.second);
-      w.first_point = link.first_point;
-      w.second_point = link.second_point;
-      w.stiffness = link.stiffness;
-      w.rest_length = link.rest_length;
-      w.damping = link.damping;
-      w.world = link.second_point;
-      if (w.second < 0 && link.second >= 0)
-      {
-        const Arc& arc = bodies[link.second].arc;
-        w.world = Frame(Vec2(arc.x[0], arc.y[0]), arc.angle[0]).toWorld(link.second_point);
-      }
-      if (w.first < 0)
+      LinkWork& w = add(link.stiffness, link.rest_length, link.damping);
+      Vec2 first_point = link.first_point, second_point = link.second_point;
+      int fixed = link.second;
+      if (first < 0)
       {
         // The first end is on a fixed block: the same spring seen from its other end.
-        const Arc& arc = bodies[link.first].arc;
-        w.world = Frame(Vec2(arc.x[0], arc.y[0]), arc.angle[0]).toWorld(link.first_point);
-        std::swap(w.first, w.second);
-        std::swap(w.first_point, w.second_point);
+        std::swap(first, second);
+        std::swap(first_point, second_point);
+        fixed = link.first;
       }
-      links_.push_back(w);
+      w.first = first;
+      w.second = second;
+      w.from = members[first].frame.rotate(first_point);
+      if (second >= 0)
+        w.to = members[second].frame.rotate(second_point);
+      else if (fixed >= 0)
+        w.world = Frame(Vec2(bodies[fixed].arc.x[0], bodies[fixed].arc.y[0]), bodies[fixed].arc.angle[0]).toWorld(second_point);
+      else
+        w.world = second_point;
     }
   }
+  links_.resize(used);
+}
+
+/// Arms and the vector between the ends, order n.
+void Flow::placeEnds(LinkWork& link, int n)
+{
+  SpringSeries& v = link.series;
+  const auto placeOf = [&](int index) { return Vec2(body_[index]->arc.x[n], body_[index]->arc.y[n]); };
+  v.from[n] = turned(work_[link.first].direction[n], link.from);
+  v.d[n] = placeOf(link.first) + v.from[n];
+  if (link.second >= 0)
+  {
+    v.to[n] = turned(work_[link.second].direction[n], link.to);
+    v.d[n] -= placeOf(link.second) + v.to[n];
+  }
+  else if (n == 0)
+    v.d[n] -= link.world;
 }
 
 /// Force of a spring on its first end, order n. Needs the positions of order n + 1.
 void Flow::springForce(LinkWork& link, int n)
 {
   SpringSeries& v = link.series;
-  // Arms and the vector between the ends up to order n + 1; order 0 is made with the first call.
-  for (int k = n == 0 ? 0 : n + 1; k <= n + 1; ++k)
-  {
-    const BodyWork& f = work_[link.first];
-    v.from_x[k] = f.c[k] * link.first_point.x() - f.s[k] * link.first_point.y();
-    v.from_y[k] = f.s[k] * link.first_point.x() + f.c[k] * link.first_point.y();
-    v.dx[k] = body_[link.first]->arc.x[k] + v.from_x[k];
-    v.dy[k] = body_[link.first]->arc.y[k] + v.from_y[k];
-    if (link.second >= 0)
-    {
-      const BodyWork& t = work_[link.second];
-      v.to_x[k] = t.c[k] * link.second_point.x() - t.s[k] * link.second_point.y();
-      v.to_y[k] = t.s[k] * link.second_point.x() + t.c[k] * link.second_point.y();
-      v.dx[k] -= body_[link.second]->arc.x[k] + v.to_x[k];
-      v.dy[k] -= body_[link.second]->arc.y[k] + v.to_y[k];
-    }
-    else if (k == 0)
-    {
-      v.dx[k] -= link.world.x();
-      v.dy[k] -= link.world.y();
-    }
-  }
-  if (link.rest_length == 0.0)
-  {
-    v.fx[n] = -link.stiffness * v.dx[n] - link.damping * (n + 1) * v.dx[n + 1];
-    v.fy[n] = -link.stiffness * v.dy[n] - link.damping * (n + 1) * v.dy[n + 1];
-    return;
-  }
   if (n == 0)
-    v.coincident = endsMeet(v.dx[0], v.dy[0], std::abs(body_[link.first]->arc.x[0]) + std::abs(body_[link.first]->arc.y[0]) + link.rest_length);
-  for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
-    lengthSeries(v.dx, v.dy, v.coincident ? k - 1 : k, v.coincident, v.length, v.ux, v.uy);
-  double fx = 0.0, fy = 0.0;
-  for (int j = 0; j <= n; ++j)
+    placeEnds(link, 0);
+  placeEnds(link, n + 1);
+  if (link.rest_length == 0.0)
+    v.force = -link.stiffness * v.d[n] - link.damping * (n + 1) * v.d[n + 1];
+  else
   {
-    const double tension = link.stiffness * (v.length[j] - (j == 0 ? link.rest_length : 0.0)) + link.damping * (j + 1) * v.length[j + 1];
-    fx -= tension * v.ux[n - j];
-    fy -= tension * v.uy[n - j];
+    if (n == 0)
+    {
+      const Arc& arc = body_[link.first]->arc;
+      v.coincident = v.d[0].norm() <= kCancelled * (std::abs(arc.x[0]) + std::abs(arc.y[0]) + link.rest_length);
+    }
+    for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
+      lengthSeries(v, v.coincident ? k - 1 : k);
+    v.tension[n] = link.stiffness * (v.length[n] - (n == 0 ? link.rest_length : 0.0)) + link.damping * (n + 1) * v.length[n + 1];
+    v.force = -cauchy(v.tension, v.u, n, 0, n);
   }
-  v.fx[n] = fx;
-  v.fy[n] = fy;
+  v.turned[n] = Vec2(v.force.y(), -v.force.x());
 }
 
 }  // namespace block_world

@@ -1,0 +1,197 @@
+// How long the arcs of an island last, and what follows from them: a part of Flow.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "flow.h"
+
+namespace block_world
+{
+namespace
+{
+/// Position scale times this is the truncation error allowed per arc: rounding.
+constexpr double kTruncation = 1e-15;
+
+/// Largest contact force times this is the truncation error allowed for a contact force.
+constexpr double kForceTruncation = 1e-13;
+
+/// s; arcs that are no parabolas are expanded anew at least this often, so that bounds over their horizon stay finite.
+constexpr double kLongest = 1048576.0;
+
+/// Size of order n of an arc, m / s^n.
+double sizeOf(const Arc& arc, double radius, int n)
+{
+  return std::max({ std::abs(arc.x[n]), std::abs(arc.y[n]), radius * std::abs(arc.angle[n]) });
+}
+
+/// Bounds of the third derivatives over the horizon.
+void findJerk(Arc& arc)
+{
+  arc.jerk = arc.angular_jerk = 0.0;
+  double power = 1.0;
+  for (int n = 3; n <= arc.degree; ++n, power *= arc.horizon)
+  {
+    const double weight = n * (n - 1) * (n - 2) * power;
+    arc.jerk += weight * std::sqrt(arc.x[n] * arc.x[n] + arc.y[n] * arc.y[n]);
+    arc.angular_jerk += weight * std::abs(arc.angle[n]);
+  }
+}
+}  // namespace
+
+/// Span within which each of the last two orders kept changes no position, direction, velocity or force by more than the truncation error of its
+/// scale. For velocities this is that of the speeds there: positions may be large next to the motion.
+double Flow::horizon(int degree) const
+{
+  double span = kLongest;
+  const auto last = { degree - 1, degree };
+  for (int n : last)
+  {
+    double most = 0.0;
+    for (std::size_t i = 0; i < work_.size(); ++i)
+    {
+      const Arc& arc = body_[i]->arc;
+      const double radius = body_[i]->shape.radius, size = std::max({ std::abs(arc.x[0]), std::abs(arc.y[0]), radius });
+      most = std::max(most, sizeOf(arc, radius, n) / size);
+      if (work_[i].trigonometric)
+        most = std::max(most, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
+    }
+    if (most > 0.0)
+      span = std::min(span, std::pow(kTruncation / most, 1.0 / n));
+  }
+
+  double largest = 0.0;
+  for (const Rest& rest : *rests_)
+    largest = std::max(largest, std::abs(rest.force[0]));
+  for (int n : { degree - 3, degree - 2 })
+  {
+    double most = 0.0;
+    for (const Rest& rest : *rests_)
+      most = std::max(most, std::abs(rest.force[n]));
+    if (most > 0.0)
+      span = std::min(span, std::pow(kForceTruncation * largest / most, 1.0 / n));
+  }
+
+  double most[] = { 0.0, 0.0 };
+  for (std::size_t i = 0; i < work_.size(); ++i)
+  {
+    const Arc& arc = body_[i]->arc;
+    double scale = 0.0, power = 1.0, speed = 0.0, before = 0.0;
+    for (int n = 1; n <= degree; ++n, power *= span)
+    {
+      before = speed;
+      speed = n * sizeOf(arc, body_[i]->shape.radius, n) * power;
+      scale = std::max(scale, speed);
+    }
+    if (scale > 0.0)
+    {
+      most[0] = std::max(most[0], before / scale);
+      most[1] = std::max(most[1], speed / scale);
+    }
+  }
+  double share = 1.0;
+  for (int n : last)
+    if (most[n - degree + 1] > kTruncation)
+      share = std::min(share, std::pow(kTruncation / most[n - degree + 1], 1.0 / (n - 1)));
+  return share * span;
+}
+
+void Flow::finish(const std::vector<Body>& bodies, int degree)
+{
+  double span = degree > 2 ? horizon(degree) : std::numeric_limits<double>::infinity();
+  // A spring whose ends meet turns its direction there: a new arc.
+  for (const LinkWork& link : links_)
+  {
+    if (link.rest_length == 0.0)
+      continue;
+    Series length = link.series.length;
+    if (link.series.coincident)
+      std::rotate(length.begin(), length.begin() + 1, length.end());
+    if (length[0] > 0.0)
+      span = std::min(span, firstBelow(length, degree - 2, span, 0.0));
+  }
+  for (Body* body : body_)
+  {
+    Arc& arc = body->arc;
+    arc.degree = degree;
+    while (arc.degree > 0 && arc.x[arc.degree] == 0.0 && arc.y[arc.degree] == 0.0 && arc.angle[arc.degree] == 0.0)
+      --arc.degree;
+    arc.horizon = span;
+    arc.end = arc.start + span;
+    findJerk(arc);
+  }
+  bool ends = false;
+  for (Rest& rest : *rests_)
+  {
+    rest.degree = degree;
+    rest.along[0] = rest.touch.along;
+    ends = ends || !std::isinf(bodies[rest.touch.b].shape.faces[rest.touch.face].length);
+  }
+  // The way along the face is perp(n).d, the torque on its body d x n.
+  if (ends)
+  {
+    for (int n = degree - 1; n <= degree; ++n)
+      findLevers(n);
+    for (std::size_t i = 0; i < rest_work_.size(); ++i)
+      for (int n = 1; n <= degree; ++n)
+        (*rests_)[i].along[n] = -rest_work_[i].levers[n].y();
+  }
+}
+
+/// Powers are products of series; what they have beyond the degree is below the truncation error.
+void Flow::findWorks(int degree, Works& works)
+{
+  works.degree = 0;
+  bool any = field_->damping > 0.0;
+  for (const Body* body : body_)
+    any = any || body->pushed();
+  for (const LinkWork& link : links_)
+    any = any || link.damping != 0.0;
+  if (!any)
+    return;
+  works.degree = degree;
+  works.thrust.fill(0.0);
+  works.loss.fill(0.0);
+  VectorSeries rate, force;
+  Series spin, shortening;
+  for (std::size_t i = 0; i < work_.size(); ++i)
+  {
+    const BodyWork& w = work_[i];
+    const Body& body = *body_[i];
+    for (int n = 0; n < degree; ++n)
+    {
+      rate[n] = (n + 1) * Vec2(body.arc.x[n + 1], body.arc.y[n + 1]);
+      spin[n] = (n + 1) * body.arc.angle[n + 1];
+    }
+    if (field_->damping > 0.0)
+      for (int n = 0; n < degree; ++n)
+        works.loss[n + 1] += field_->damping * cauchySquare(rate, n, 0) + field_->rotational_damping * cauchySquare(spin, n, 0);
+    if (body.pushed())
+      for (int n = 0; n < degree; ++n)
+      {
+        force[n] = turned(w.direction[n], w.push);
+        works.thrust[n + 1] += cauchy(force, rate, n, 0, n) + body.twist * spin[n];
+      }
+  }
+  for (LinkWork& link : links_)
+  {
+    if (link.damping == 0.0)
+      continue;
+    placeEnds(link, degree);
+    if (link.rest_length != 0.0)
+      lengthSeries(link.series, link.series.coincident ? degree - 1 : degree);
+    for (int n = 0; n < degree; ++n)
+    {
+      rate[n] = (n + 1) * link.series.d[n + 1];
+      shortening[n] = (n + 1) * link.series.length[n + 1];
+      works.loss[n + 1] += link.damping * (link.rest_length == 0.0 ? cauchySquare(rate, n, 0) : cauchySquare(shortening, n, 0));
+    }
+  }
+  for (int n = 1; n <= degree; ++n)
+  {
+    works.thrust[n] /= n;
+    works.loss[n] /= n;
+  }
+}
+
+}  // namespace block_world
