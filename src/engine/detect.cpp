@@ -231,9 +231,10 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
 
   // The bound of the curvature over twice the span that the bound at this instant suggests.
   const double bound_now = curvature(f, v, 0.0);
+  // Those in the shell that do not leave it at once have no need of a bound.
   double span = kNever;
   for (const Open& o : open_)
-    if (o.gap > 0.5 * tolerance_ || o.rate > 0.0)
+    if (o.gap > 0.5 * tolerance_ || (o.rate > 0.0 && o.rate * o.rate > 2.0 * bound_now * tolerance_))
       span = std::min(span, firstZero(std::max(o.gap, 0.5 * tolerance_), o.rate, -bound_now));
   span = std::min(horizon, 2.0 * std::max(span, std::sqrt(tolerance_ / (bound_now + 1e-300))));
   const double bound = std::isinf(span) ? bound_now : curvature(f, v, span);
