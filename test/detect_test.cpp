@@ -279,7 +279,8 @@ TEST(Detector, RestingVerticesAreNotGuarded)
   {
     Pair pair;
     if (resting)
-      pair.resting = { { true, 0, 0 }, { true, 0, 1 } };
+      for (const int vertex : { 0, 1 })
+        pair.resting.add({ true, 0, vertex });
     const View view_a{ &floor, &now_a, Frame(now_a.position, 0.0) }, view_b{ &box, &now_b, Frame(now_b.position, 0.0) };
     EXPECT_EQ(detector.certify(pair, view_a, view_b, Time(), never), never);
     EXPECT_FALSE(pair.contact_due);

@@ -129,6 +129,8 @@ public:
   EnergyAccount energy() const;
   /// Impacts, rest begins and rest ends since last asked, in the order in which they happened.
   std::vector<ContactEvent> takeContacts();
+  /// Whether contacts wait to be taken, as they do at first. Who never takes them lets them go, or else they pile up.
+  void keepContacts(bool keep);
   /// Commands that the scene's timed inputs applied since last asked, with their times.
   std::vector<TimedCommand> takeInputs();
   /// The resting contacts that carry force now, with their forces.

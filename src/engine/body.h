@@ -60,7 +60,7 @@ struct Body
 
   Arc arc;
   int island = -1;         ///< lowest index among the bodies that move as one with this one
-  std::vector<int> pairs;  ///< pairs that this body is one of
+  int first_pair = -1;     ///< of the list of pairs that this body is one of
 
   Cost cost;
   /// To notice time standing still: events since an instant, and what it had cost then.

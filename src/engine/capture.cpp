@@ -144,17 +144,17 @@ void ContactGroup::carryOut()
 void ContactGroup::capture()
 {
   carryOut();
-  const std::vector<int> held = pressed_;
+  held_ = pressed_;
   candidates_.clear();
   for (int i = 0; i < static_cast<int>(touches.size()); ++i)
   {
-    const bool resting = std::abs(velocityOf(i)) <= noise_ || std::find(held.begin(), held.end(), i) != held.end();
+    const bool resting = std::abs(velocityOf(i)) <= noise_ || std::find(held_.begin(), held_.end(), i) != held_.end();
     if (!touches[i].corner && touches[i].gap <= closed_ && resting)
       candidates_.push_back(i);
   }
   solveRest(candidates_);
   factorPressed();
-  if (pressed_ != held)
+  if (pressed_ != held_)
   {
     others_.clear();
     carryOut();

@@ -40,8 +40,9 @@ bool Cholesky::append(const double* entries, double share)
   const int n = size_;
   if (lower_.size() < static_cast<std::size_t>((n + 1) * (n + 2) / 2))
   {
-    lower_.resize((n + 1) * (n + 2) + 64);
+    lower_.resize((2 * n + 16) * (2 * n + 17) / 2);
     first_.resize(2 * n + 16);
+    z_.reserve(2 * n + 16);
   }
   double* l = lower_.data() + n * (n + 1) / 2;
   int start = 0;
@@ -228,6 +229,7 @@ void Complementarity::start(const SymmetricMatrix& a, const std::vector<int>& ro
   rows_ = &rows;
   b_ = &b;
   const std::size_t n = rows.size();
+  room_.provide(n, passive_, state_, l_, x_, residual_, row_, support_);
   l_.assign(n, 0.0);
   state_.assign(n, 0);
   passive_.clear();

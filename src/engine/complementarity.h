@@ -8,6 +8,23 @@ namespace block_world
 /// the pivots in another are smaller, but not by more than the second.
 constexpr double kDependent = 1e-11, kTrusted = 1e-14;
 
+/// Room for vectors that take so many entries, of which none grows by itself: the memory of all doubles at once and soon suffices for good.
+class Room
+{
+public:
+  template <class... Vector>
+  void provide(std::size_t entries, Vector&... vectors)
+  {
+    if (entries <= entries_)
+      return;
+    entries_ = 2 * entries;
+    (vectors.reserve(entries_), ...);
+  }
+
+private:
+  std::size_t entries_ = 0;
+};
+
 /// Cholesky factor of a growing symmetric positive definite matrix, row by row. Zeros at the beginning of a row stay zero in the factor and are
 /// skipped (skyline storage; George & Liu 1981, ch. 4): bodies that touch only their neighbours make narrow rows.
 class Cholesky
@@ -52,7 +69,9 @@ public:
   void resize(int size)
   {
     size_ = size;
-    entries_.assign(static_cast<std::size_t>(size) * size, 0.0);
+    const std::size_t entries = static_cast<std::size_t>(size) * size;
+    room_.provide(entries, entries_);
+    entries_.assign(entries, 0.0);
   }
   int size() const
   {
@@ -69,6 +88,7 @@ public:
 
 private:
   int size_ = 0;
+  Room room_;
   std::vector<double> entries_;
 };
 
@@ -115,6 +135,7 @@ private:
   void solvePassive(std::vector<double>& x);
   bool rowOf(int position, int candidate);
 
+  Room room_;
   const SymmetricMatrix* a_ = nullptr;
   const std::vector<int>* rows_ = nullptr;
   const std::vector<double>* b_ = nullptr;

@@ -48,6 +48,9 @@ void ContactGroup::clean()
 void ContactGroup::prepare()
 {
   const int n = static_cast<int>(touches.size());
+  rows_room_.provide(touches.size(), all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_, held_,
+                     extended_rows_, depth_, rest_speed_, holds_, pushes_, b_, row_, solution_, impulses_, minus_one_, meets_);
+  members_room_.provide(members.size(), sizes_, changes_, rebound_, velocities_, start_, speeds_);
   gram_.resize(n);
   sizes_.resize(members.size());
   for (int i = 0; i < n; ++i)
@@ -167,22 +170,21 @@ void ContactGroup::stop()
 bool ContactGroup::isLocked(const std::vector<int>& rows)
 {
   const int n = static_cast<int>(rows.size());
-  SymmetricMatrix extended;
-  extended.resize(n);
+  extended_.resize(n);
   double size = 0.0;
   for (int i = 0; i < n; ++i)
     size = std::max(size, gram_(rows[i], rows[i]));
-  std::vector<int> all(n);
+  extended_rows_.resize(n);
+  minus_one_.assign(n, -1.0);
   for (int i = 0; i < n; ++i)
   {
-    all[i] = i;
+    extended_rows_[i] = i;
     for (int j = 0; j < n; ++j)
-      extended(i, j) = gram_(rows[i], rows[j]) / size + 1.0;
+      extended_(i, j) = gram_(rows[i], rows[j]) / size + 1.0;
   }
-  Complementarity test;
-  test.solve(extended, all, std::vector<double>(n, -1.0));
+  solver_.solve(extended_, extended_rows_, minus_one_);
   double sum = 0.0;
-  for (double l : test.value())
+  for (double l : solver_.value())
     sum += l;
   return 1.0 - sum < 1e-12;  // the minimum is -sum/2
 }
@@ -296,28 +298,16 @@ double ContactGroup::settlePositions(double resolution, double& loss)
   }
   factor_.solve(solution_.data());
 
-  struct Move
-  {
-    Vec2 shift = Vec2::Zero();
-    double turn = 0.0;
-  };
-  std::vector<Move> moves(members.size());
-  for (std::size_t k = 0; k < pressed_.size(); ++k)
-  {
-    const Touch& t = touches[pressed_[k]];
-    const Member &a = members[t.member_a], &b = members[t.member_b];
-    moves[t.member_a].shift += solution_[k] * a.inverse_mass * t.normal;
-    moves[t.member_a].turn += solution_[k] * a.inverse_inertia * cross(t.arm, t.normal);
-    moves[t.member_b].shift -= solution_[k] * b.inverse_mass * t.normal;
-    moves[t.member_b].turn -= solution_[k] * b.inverse_inertia * cross(t.reach, t.normal);
-  }
+  sumChanges(pressed_, solution_, changes_);
   for (std::size_t m = 0; m < members.size(); ++m)
   {
     Member& member = members[m];
     if (member.inverse_mass == 0.0)
       continue;
-    loss += member.acceleration.dot(moves[m].shift) / member.inverse_mass + member.alpha * moves[m].turn / member.inverse_inertia;
-    place(member, moves[m].shift, moves[m].turn);
+    const Vec2& shift = changes_[m].velocity;
+    const double turn = changes_[m].omega;
+    loss += member.acceleration.dot(shift) / member.inverse_mass + member.alpha * turn / member.inverse_inertia;
+    place(member, shift, turn);
   }
   return lowest;
 }

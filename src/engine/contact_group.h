@@ -104,10 +104,11 @@ private:
 
   void place(Member& member, const Vec2& shift, double turn);
 
+  Room rows_room_, members_room_;
   SymmetricMatrix gram_;
   Complementarity solver_;
   Cholesky factor_;
-  std::vector<int> all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_;
+  std::vector<int> all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_, held_;
   std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
   std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
   std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest
@@ -123,6 +124,11 @@ private:
   std::vector<Twist> changes_, rebound_, velocities_, start_;  ///< by member
   std::vector<double> speeds_;                         ///< m/s, by member: what the plan changes
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
+
+  /// Workspace of isLocked.
+  SymmetricMatrix extended_;
+  std::vector<int> extended_rows_;
+  std::vector<double> minus_one_;
 };
 
 }  // namespace block_world

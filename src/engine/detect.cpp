@@ -10,6 +10,12 @@ namespace
 {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+/// Whether a body's angle changes along its arc.
+bool turns(const View& view)
+{
+  return view.now->omega != 0.0 || view.now->alpha != 0.0 || view.body->arc.degree > 2;
+}
+
 /// Latest time up to which g + v s - m s^2 / 2, which opens, is certain to have come back no lower than zero; g may start below.
 double backIn(double g, double v, double m)
 {
@@ -145,7 +151,7 @@ void Detector::localSeries(const View& view, bool of_face)
   }
   local.c[0] = view.frame.cosine;
   local.s[0] = view.frame.sine;
-  if (view.now->omega != 0.0 || body.arc.degree >= 2)
+  if (turns(view))
     trigonometricSeries(angle, std::max(2, body.arc.degree), kOrder, local.c, local.s);
 }
 
@@ -156,17 +162,19 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
     localSeries(f, true);
   if (vertex_local_.body != v.body)
     localSeries(v, false);
-  Series nx, ny, dx, dy, g;
-  for (int k = 0; k <= kOrder; ++k)
+  // Where nothing turns the gap has the degree of the arcs.
+  const bool face_turns = turns(f), vertex_turns = turns(v);
+  const int order = face_turns || vertex_turns ? kOrder : std::max(face_local_.degree, vertex_local_.degree);
+  Series nx, ny, dx, dy, g{};
+  for (int k = 0; k <= order; ++k)
   {
     nx[k] = face_local_.c[k] * face.normal.x() - face_local_.s[k] * face.normal.y();
     ny[k] = face_local_.s[k] * face.normal.x() + face_local_.c[k] * face.normal.y();
     dx[k] = vertex_local_.x[k] - face_local_.x[k] + vertex_local_.c[k] * vertex.x() - vertex_local_.s[k] * vertex.y();
     dy[k] = vertex_local_.y[k] - face_local_.y[k] + vertex_local_.s[k] * vertex.x() + vertex_local_.c[k] * vertex.y();
   }
-  const bool turning = f.now->omega != 0.0 || f.body->arc.degree >= 2;
-  for (int k = 0; k <= kOrder; ++k)
-    g[k] = turning ? cauchy(nx, dx, k) + cauchy(ny, dy, k) : nx[0] * dx[k] + ny[0] * dy[k];
+  for (int k = 0; k <= order; ++k)
+    g[k] = face_turns ? cauchy(nx, dx, k) + cauchy(ny, dy, k) : nx[0] * dx[k] + ny[0] * dy[k];
   g[0] = gap;
 
   // Directions keep their digits up to a turn of one radian.
@@ -186,21 +194,21 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
   }
   if (gap > resolution_)
   {
-    const double zero = firstBelow(g, kOrder, span, 0.0);
+    const double zero = firstBelow(g, order, span, 0.0);
     return zero < kNever ? Certificate{ zero, true } : Certificate{ span, false };
   }
   // From zero the gap may open like s, s^2 or s^3, and rounding hides its first coefficients: guard a level below, then go back to the last zero
   // from above if the gap did open in between.
-  double end = firstBelow(g, kOrder, span, std::min(gap, 0.0) - guard_);
+  double end = firstBelow(g, order, span, std::min(gap, 0.0) - guard_);
   if (end == kNever)
     return { span, false };
   constexpr int kLooks = 16;
   for (int i = kLooks - 1; i >= 1; --i)
   {
     double low = end * i / kLooks;
-    if (evaluate(g, kOrder, low) <= resolution_)
+    if (evaluate(g, order, low) <= resolution_)
       continue;
-    const double after = firstBelow(shifted(g, kOrder, low), kOrder, end - low, 0.0);
+    const double after = firstBelow(shifted(g, order, low), order, end - low, 0.0);
     if (after < kNever)
       end = low + after;
     break;
@@ -218,10 +226,7 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
   open_.clear();
   for (std::size_t k = 0; k < vertices.size(); ++k)
   {
-    bool resting = false;
-    for (const Pair::Resting& r : pair.resting)
-      resting = resting || (r.face_of_a == of_a && r.face == index && r.vertex == static_cast<int>(k));
-    if (resting)
+    if (pair.resting.contains({ of_a, static_cast<unsigned>(index), static_cast<int>(k) }))
       continue;
     const Vec2 arm = v.frame.rotate(vertices[k]);
     const Vec2 d = between + arm;
@@ -267,45 +272,34 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
     if (gap > tolerance_ && gap > 0.5 * pair.face_gap)
       return face(pair, pair.face_of_a, pair.face, f, v, horizon).span;
   }
-  double best = -kNever;
+  sides_.clear();
   for (int side = 0; side < 2; ++side)
   {
     const View &f = side == 0 ? a : b, &v = side == 0 ? b : a;
-    if (v.body->shape.vertices.empty())
-      continue;
-    for (std::size_t i = 0; i < f.body->shape.faces.size(); ++i)
-    {
-      const double gap = faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame);
-      if (gap <= best)
-        continue;
-      best = gap;
-      pair.face_of_a = side == 0;
-      pair.face = static_cast<int>(i);
-    }
+    if (!v.body->shape.vertices.empty())
+      for (std::size_t i = 0; i < f.body->shape.faces.size(); ++i)
+        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame) });
   }
-  pair.face_gap = best;
-  if (best > 0.5 * tolerance_)
+  const auto best = std::max_element(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.gap < q.gap; });
+  pair.face_of_a = best->of_a;
+  pair.face = best->face;
+  pair.face_gap = best->gap;
+  if (best->gap > 0.5 * tolerance_)
     return face(pair, pair.face_of_a, pair.face, pair.face_of_a ? a : b, pair.face_of_a ? b : a, horizon).span;
 
   // In the shell several faces may separate the bodies; they stay apart as long as one of them does.
+  const double least = std::min(best->gap, 0.0) - 2.0 * guard_;
   Certificate longest{ -1.0, false };
-  for (int side = 0; side < 2; ++side)
+  for (const Side& side : sides_)
   {
-    const View &f = side == 0 ? a : b, &v = side == 0 ? b : a;
-    if (v.body->shape.vertices.empty())
+    if (side.gap < least)
       continue;
-    for (std::size_t i = 0; i < f.body->shape.faces.size(); ++i)
+    const Certificate one = face(pair, side.of_a, side.face, side.of_a ? a : b, side.of_a ? b : a, horizon);
+    if (one.span > longest.span)
     {
-      if (faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame) < std::min(best, 0.0) - 2.0 * guard_)
-        continue;
-      face_local_.body = vertex_local_.body = nullptr;
-      const Certificate one = face(pair, side == 0, static_cast<int>(i), f, v, horizon);
-      if (one.span > longest.span)
-      {
-        longest = one;
-        pair.face_of_a = side == 0;
-        pair.face = static_cast<int>(i);
-      }
+      longest = one;
+      pair.face_of_a = side.of_a;
+      pair.face = side.face;
     }
   }
   pair.contact_due = longest.contact;

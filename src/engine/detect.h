@@ -1,27 +1,92 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <vector>
 
 #include "body.h"
 
 namespace block_world
 {
-/// Two bodies that may meet; at least one of them can move.
+/// A vertex that rests on a face: their gap is kept zero by the arcs and needs no guard.
+struct Resting
+{
+  unsigned face_of_a : 1, face : 31;
+  int vertex;
+
+  bool operator==(const Resting& other) const
+  {
+    return face_of_a == other.face_of_a && face == other.face && vertex == other.vertex;
+  }
+};
+
+/// What rests of a pair: as rests are independent of each other, no more than two bodies have freedoms against each other. Memory is fixed.
+class RestingOnes
+{
+public:
+  static constexpr std::uint8_t kMost = 3;
+
+  void clear()
+  {
+    count_ = 0;
+  }
+  bool empty() const
+  {
+    return count_ == 0;
+  }
+  void add(const Resting& one)
+  {
+    if (count_ < kMost)
+      ones_[count_++] = one;
+  }
+  bool contains(const Resting& one) const
+  {
+    return std::find(ones_.begin(), ones_.begin() + count_, one) != ones_.begin() + count_;
+  }
+
+  template <class A>
+  void exchange(A& archive)
+  {
+    archive(count_);
+    count_ = std::min(count_, kMost);
+    for (std::size_t i = 0; i < count_; ++i)
+    {
+      int side = ones_[i].face_of_a, face = ones_[i].face;
+      archive(side, face, ones_[i].vertex);
+      ones_[i].face_of_a = side;
+      ones_[i].face = face;
+    }
+  }
+
+private:
+  std::array<Resting, kMost> ones_{};
+  std::uint8_t count_ = 0;
+};
+
+/// Two bodies that may meet; at least one of them can move. In the list of pairs of either of them.
 struct Pair
 {
   int a = -1, b = -1;
-  bool face_of_a = true;    ///< the face that was last seen to separate the bodies
-  int face = -1;
-  double face_gap = 0.0;    ///< m, when it was chosen
+  double face_gap = 0.0;  ///< m, when the face was chosen
+  int face = -1;          ///< the face that was last seen to separate the bodies
+  std::array<int, 2> next{ -1, -1 }, previous{ -1, -1 };  ///< in the list of a, in that of b
+  RestingOnes resting;
+  bool face_of_a = true;
   bool contact_due = false;  ///< the promise ends with a contact, not with a new look
-  /// A vertex that rests on a face: their gap is kept zero by the arcs and needs no guard.
-  struct Resting
+
+  int side(int body) const
   {
-    bool face_of_a;
-    int face, vertex;
-  };
-  std::vector<Resting> resting;
+    return body == a ? 0 : 1;
+  }
+  int nextOf(int body) const
+  {
+    return next[side(body)];
+  }
+  int other(int body) const
+  {
+    return body == a ? b : a;
+  }
 };
 
 /// One body as the detector sees it at an instant.
@@ -91,6 +156,14 @@ private:
     double gap, rate;
   };
   std::vector<Open> open_;
+  /// A face and the gap that it leaves.
+  struct Side
+  {
+    bool of_a;
+    int face;
+    double gap;
+  };
+  std::vector<Side> sides_;
 };
 
 }  // namespace block_world

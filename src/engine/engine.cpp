@@ -58,7 +58,9 @@ void World::Engine::build()
   }
   refreshDissipative();
   const int count = static_cast<int>(bodies.size());
-  islands_.assign(count, Island());
+  islands_.resize(count);
+  for (Island& island : islands_)
+    island.clear();
   promises_.reset(pairSlot(0));
   cache_.assign(count, Cached());
   member_of_.assign(count, -1);

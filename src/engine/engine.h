@@ -19,6 +19,21 @@ struct Island
   std::vector<int> bodies;
   std::vector<Rest> rests;
   Works works;
+
+  /// Keeps the memory.
+  void clear()
+  {
+    bodies.clear();
+    rests.clear();
+  }
+  /// Both being empty: the larger memory of the two.
+  void takeMemory(Island& other)
+  {
+    if (other.bodies.empty() && other.bodies.capacity() > bodies.capacity())
+      bodies.swap(other.bodies);
+    if (other.rests.empty() && other.rests.capacity() > rests.capacity())
+      rests.swap(other.rests);
+  }
 };
 
 /// The world behind World: arcs, promises, and what happens when a promise comes due.
@@ -50,6 +65,7 @@ public:
   std::vector<Body> bodies;  ///< blocks in scene order, then walls
   int block_count = 0;
   std::vector<ContactEvent> contacts;
+  bool keep_contacts = true;
   std::vector<TimedCommand> inputs_done;
   Statistics statistics;
   std::vector<int> islandOf(int body) const;
@@ -98,8 +114,10 @@ private:
 
   // neighbours.cpp: which pairs there are, and when to look at them
   void configureGrid();
+  bool nearWall(int body, int wall) const;
+  void findNear(int body);
   void pairAll();
-  void addPair(int a, int b);
+  int addPair(int a, int b);
   void dropPair(int pair);
   void lookAtCell(int body, const Time& time);
   void promiseCell(int body, const Time& time);
@@ -165,7 +183,7 @@ private:
   std::vector<SpringLink> links_;
   Grid grid_;
   std::vector<Pair> pairs_;      ///< those not in use have no bodies
-  std::vector<int> free_pairs_;  ///< not in use
+  int free_pair_ = -1;           ///< first of those not in use
   std::vector<Island> islands_;
   Promises promises_;
   Detector detector_;

@@ -16,6 +16,8 @@ double cleaned(double sum, double size)
 void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
                  const std::vector<Member>& members, std::vector<Rest>& rests)
 {
+  members_room_.provide(members.size(), body_, work_);
+  rests_room_.provide(rests.size(), rest_work_, row_, rhs_, residual_);
   body_.clear();
   work_.resize(members.size());
   for (std::size_t i = 0; i < members.size(); ++i)
@@ -24,7 +26,9 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
     Body& body = bodies[m.body];
     body_.push_back(&body);
     body.arc.start = start;
-    body.arc.x = body.arc.y = body.arc.angle = Series{};
+    // What is beyond the degree is zero already.
+    for (int n = 2; n <= body.arc.degree; ++n)
+      body.arc.x[n] = body.arc.y[n] = body.arc.angle[n] = 0.0;
     body.arc.x[0] = m.frame.position.x();
     body.arc.y[0] = m.frame.position.y();
     body.arc.angle[0] = m.angle;

@@ -109,6 +109,7 @@ private:
   void placeEnds(LinkWork& link, int n);
   void springForce(LinkWork& link, int n);
 
+  Room members_room_, rests_room_;
   const Field* field_ = nullptr;
   std::vector<Body*> body_;
   std::vector<BodyWork> work_;

@@ -40,8 +40,7 @@ void World::Engine::regroup(const Time& time)
   for (const Member& m : group_.members)
     if (!bodies[m.body].fixed)
     {
-      islands_[m.body].bodies.clear();
-      islands_[m.body].rests.clear();
+      islands_[m.body].clear();
       promises_.set(islandSlot(m.body), Time::infinity());
     }
   for (int index : group_pairs_)
@@ -65,6 +64,8 @@ void World::Engine::launch(const Time& time, const std::vector<int>& members)
   for (int m : members)
     name = std::min(name, group_.members[m].body);
   Island& island = islands_[name];
+  for (int m : members)
+    island.takeMemory(islands_[group_.members[m].body]);
   island_state_.clear();
   for (std::size_t k = 0; k < members.size(); ++k)
   {
@@ -91,7 +92,7 @@ void World::Engine::launch(const Time& time, const std::vector<int>& members)
       continue;
     island.rests.push_back(rest);
     Pair& pair = pairs_[t.pair];
-    pair.resting.push_back({ pair.a == t.b, t.face, t.vertex });
+    pair.resting.add({ pair.a == t.b, static_cast<unsigned>(t.face), t.vertex });
   }
   move(island, time);
   promiseIsland(name, time);
@@ -130,7 +131,8 @@ void World::Engine::sleep(Island& island)
   for (int body : island.bodies)
   {
     Arc& arc = bodies[body].arc;
-    arc.x[1] = arc.y[1] = arc.angle[1] = arc.x[2] = arc.y[2] = arc.angle[2] = 0.0;
+    for (int n = 1; n <= arc.degree; ++n)
+      arc.x[n] = arc.y[n] = arc.angle[n] = 0.0;
     arc.degree = 0;
     arc.horizon = std::numeric_limits<double>::infinity();
     arc.end = Time::infinity();
@@ -180,7 +182,7 @@ void World::Engine::dissolve(int body, const Time& time)
     islands_[i].bodies.assign(1, i);
     islands_[i].rests.clear();
     bodies[i].island = i;
-    for (int pair : bodies[i].pairs)
+    for (int pair = bodies[i].first_pair; pair >= 0; pair = pairs_[pair].nextOf(i))
       pairs_[pair].resting.clear();
     seeds_.push_back(i);
   }

@@ -1,4 +1,4 @@
-// Which pairs there are: each body with every wall, and with the bodies near it in the grid. When each is to be looked at.
+// Which pairs there are: each body with the bodies near it in the grid and the walls near its cell. When each is to be looked at.
 
 #include <algorithm>
 
@@ -13,10 +13,32 @@ void World::Engine::configureGrid()
     radii.push_back(body.shape.radius);
   grid_.configure(radii, scene.tolerance);
   pairs_.clear();
-  free_pairs_.clear();
+  free_pair_ = -1;
   pair_mark_.clear();
   body_mark_.assign(bodies.size(), 0);
   mark_ = 0;
+}
+
+/// Whether a body may meet a wall before it changes its cell.
+bool World::Engine::nearWall(int body, int wall) const
+{
+  const Grid::Box box = grid_.keeps(body);
+  const Face& face = bodies[wall].shape.faces.front();
+  double lowest = -face.offset;
+  for (int axis : { 0, 1 })
+    if (face.normal[axis] != 0.0)
+      lowest += face.normal[axis] * (face.normal[axis] > 0.0 ? box.low : box.high)[axis];
+  return lowest <= bodies[body].shape.radius + scene.tolerance;
+}
+
+/// Whom a body may meet before it changes its cell, ascending.
+void World::Engine::findNear(int body)
+{
+  grid_.neighbours(body, near_);
+  std::sort(near_.begin(), near_.end());
+  for (int wall = block_count; wall < static_cast<int>(bodies.size()); ++wall)
+    if (nearWall(body, wall))
+      near_.push_back(wall);
 }
 
 /// All pairs, where the bodies are now. Their promises come with the arcs.
@@ -26,20 +48,17 @@ void World::Engine::pairAll()
     grid_.place(a, Vec2(bodies[a].arc.x[0], bodies[a].arc.y[0]));
   for (int a = 0; a < block_count; ++a)
   {
-    grid_.neighbours(a, near_);
-    std::sort(near_.begin(), near_.end());
+    findNear(a);
     for (int b : near_)
       if (b > a && !(bodies[a].fixed && bodies[b].fixed))
         addPair(a, b);
-    for (int wall = block_count; wall < static_cast<int>(bodies.size()) && !bodies[a].fixed; ++wall)
-      addPair(a, wall);
   }
 }
 
-void World::Engine::addPair(int a, int b)
+int World::Engine::addPair(int a, int b)
 {
-  int index;
-  if (free_pairs_.empty())
+  int index = free_pair_;
+  if (index < 0)
   {
     index = static_cast<int>(pairs_.size());
     pairs_.emplace_back();
@@ -47,28 +66,37 @@ void World::Engine::addPair(int a, int b)
     promises_.grow();
   }
   else
-  {
-    index = free_pairs_.back();
-    free_pairs_.pop_back();
-  }
+    free_pair_ = pairs_[index].next[0];
   Pair& pair = pairs_[index];
+  pair = Pair();
   pair.a = std::min(a, b);
   pair.b = std::max(a, b);
-  bodies[a].pairs.push_back(index);
-  bodies[b].pairs.push_back(index);
+  for (int side : { 0, 1 })
+  {
+    const int body = side == 0 ? pair.a : pair.b;
+    int& first = bodies[body].first_pair;
+    pair.next[side] = first;
+    if (first >= 0)
+      pairs_[first].previous[pairs_[first].side(body)] = index;
+    first = index;
+  }
+  return index;
 }
 
 void World::Engine::dropPair(int index)
 {
   Pair& pair = pairs_[index];
-  for (int body : { pair.a, pair.b })
+  for (int side : { 0, 1 })
   {
-    std::vector<int>& list = bodies[body].pairs;
-    list.erase(std::find(list.begin(), list.end(), index));
+    const int body = side == 0 ? pair.a : pair.b, next = pair.next[side], previous = pair.previous[side];
+    if (next >= 0)
+      pairs_[next].previous[pairs_[next].side(body)] = previous;
+    (previous >= 0 ? pairs_[previous].next[pairs_[previous].side(body)] : bodies[body].first_pair) = next;
   }
   pair = Pair();
   promises_.set(pairSlot(index), Time::infinity());
-  free_pairs_.push_back(index);
+  pair.next[0] = free_pair_;
+  free_pair_ = index;
 }
 
 /// The body may have left its cell: then others are near it.
@@ -77,26 +105,19 @@ void World::Engine::lookAtCell(int body, const Time& time)
   if (grid_.place(body, snapshot(body, time).position))
   {
     ++mark_;
-    const std::vector<int>& list = bodies[body].pairs;
-    for (std::size_t k = list.size(); k-- > 0;)
+    for (int index = bodies[body].first_pair, next = -1; index >= 0; index = next)
     {
-      const Pair& pair = pairs_[list[k]];
-      const int other = pair.a == body ? pair.b : pair.a;
-      if (other >= block_count)
-        continue;
-      if (grid_.near(body, other))
+      next = pairs_[index].nextOf(body);
+      const int other = pairs_[index].other(body);
+      if (other < block_count ? grid_.near(body, other) : nearWall(body, other))
         body_mark_[other] = mark_;
       else
-        dropPair(list[k]);
+        dropPair(index);
     }
-    grid_.neighbours(body, near_);
-    std::sort(near_.begin(), near_.end());
+    findNear(body);
     for (int other : near_)
       if (body_mark_[other] != mark_)
-      {
-        addPair(body, other);
-        lookAtPair(bodies[body].pairs.back(), time);
-      }
+        lookAtPair(addPair(body, other), time);
   }
   promiseCell(body, time);
 }

@@ -8,96 +8,129 @@
 namespace block_world
 {
 /// Every promise about the future of the world, by its slot; the earliest on top. A promise that changes moves within the heap, so that none is
-/// ever stale. Equal times come in the order of their slots.
+/// ever stale; what never comes due is not in it. Equal times come in the order of their slots.
 class Promises
 {
 public:
   void reset(int slots)
   {
-    times_.assign(slots, Time::infinity());
-    heap_.resize(slots);
-    place_.resize(slots);
-    for (int i = 0; i < slots; ++i)
-      heap_[i] = place_[i] = i;
+    heap_.clear();
+    heap_.reserve(slots);
+    place_.assign(slots, kNone);
   }
 
   /// Appends a slot without a promise.
   void grow()
   {
-    const int slot = static_cast<int>(times_.size());
-    times_.push_back(Time::infinity());
-    heap_.push_back(slot);
-    place_.push_back(slot);
+    place_.push_back(kNone);
+    if (place_.size() > heap_.capacity())
+      heap_.reserve(place_.capacity());
   }
 
   void set(int slot, const Time& time)
   {
-    const bool earlier = time < times_[slot];
-    times_[slot] = time;
-    if (earlier)
-      rise(place_[slot]);
-    else
-      sink(place_[slot]);
+    if (time.isInfinite())
+    {
+      remove(slot);
+      return;
+    }
+    const Entry entry{ time, slot };
+    if (place_[slot] == kNone)
+    {
+      heap_.push_back(entry);
+      rise(static_cast<int>(heap_.size()) - 1, entry);
+      return;
+    }
+    move(place_[slot], entry);
   }
 
-  const Time& time(int slot) const
+  Time time(int slot) const
   {
-    return times_[slot];
+    return place_[slot] == kNone ? Time::infinity() : heap_[place_[slot]].time;
   }
+  /// The slot of the earliest promise; 0 where there is none.
   int first() const
   {
-    return heap_.front();
+    return heap_.empty() ? 0 : heap_.front().slot;
   }
-  const Time& firstTime() const
+  Time firstTime() const
   {
-    return times_[heap_.front()];
+    return heap_.empty() ? Time::infinity() : heap_.front().time;
   }
 
   template <class A>
   void exchange(A& archive)
   {
-    archive(times_, heap_, place_);
+    archive(heap_, place_);
+    heap_.reserve(place_.size());
   }
 
 private:
-  bool before(int a, int b) const
+  static constexpr int kNone = -1;
+
+  struct Entry
   {
-    return times_[a] < times_[b] || (times_[a] == times_[b] && a < b);
-  }
-  void put(int place, int slot)
-  {
-    heap_[place] = slot;
-    place_[slot] = place;
-  }
-  void rise(int place)
-  {
-    const int slot = heap_[place];
-    while (place > 0 && before(slot, heap_[(place - 1) / 2]))
+    Time time;
+    int slot = 0;
+
+    bool before(const Entry& other) const
     {
-      put(place, heap_[(place - 1) / 2]);
-      place = (place - 1) / 2;
+      return time < other.time || (time == other.time && slot < other.slot);
     }
-    put(place, slot);
-  }
-  void sink(int place)
+    template <class A>
+    void exchange(A& archive)
+    {
+      archive(time, slot);
+    }
+  };
+
+  void put(int place, const Entry& entry)
   {
-    const int slot = heap_[place];
+    heap_[place] = entry;
+    place_[entry.slot] = place;
+  }
+  void remove(int slot)
+  {
+    const int place = place_[slot];
+    if (place == kNone)
+      return;
+    place_[slot] = kNone;
+    const Entry last = heap_.back();
+    heap_.pop_back();
+    if (last.slot != slot)
+      move(place, last);
+  }
+  /// Puts the entry where another one was.
+  void move(int place, const Entry& entry)
+  {
+    if (place > 0 && entry.before(heap_[(place - 1) / 2]))
+      rise(place, entry);
+    else
+      sink(place, entry);
+  }
+  void rise(int place, const Entry& entry)
+  {
+    for (; place > 0 && entry.before(heap_[(place - 1) / 2]); place = (place - 1) / 2)
+      put(place, heap_[(place - 1) / 2]);
+    put(place, entry);
+  }
+  void sink(int place, const Entry& entry)
+  {
     const int size = static_cast<int>(heap_.size());
     for (int child = 2 * place + 1; child < size; child = 2 * place + 1)
     {
-      if (child + 1 < size && before(heap_[child + 1], heap_[child]))
+      if (child + 1 < size && heap_[child + 1].before(heap_[child]))
         ++child;
-      if (!before(heap_[child], slot))
+      if (!heap_[child].before(entry))
         break;
       put(place, heap_[child]);
       place = child;
     }
-    put(place, slot);
+    put(place, entry);
   }
 
-  std::vector<Time> times_;  ///< by slot
-  std::vector<int> heap_;    ///< slots in heap order
-  std::vector<int> place_;   ///< of each slot in the heap
+  std::vector<Entry> heap_;
+  std::vector<int> place_;  ///< of each slot in the heap
 };
 
 }  // namespace block_world

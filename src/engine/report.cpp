@@ -10,7 +10,9 @@ namespace block_world
 void World::Engine::report(const Time& time, bool last)
 {
   int last_pair = -1;
-  const auto contactOf = [&](const Touch& t, ContactKind kind) {
+  const auto tell = [&](const Touch& t, ContactKind kind, double impulse) {
+    if (!keep_contacts)
+      return;
     ContactEvent contact;
     contact.time = time;
     contact.kind = kind;
@@ -19,7 +21,8 @@ void World::Engine::report(const Time& time, bool last)
     contact.point = group_.members[t.member_a].frame.position + t.arm;
     contact.normal = t.normal;
     contact.normal_velocity = t.approach;
-    return contact;
+    contact.impulse = impulse;
+    contacts.push_back(contact);
   };
   const auto same = [](const Touch& p, const Touch& q) {
     return p.a == q.a && p.b == q.b && p.vertex == q.vertex && p.face == q.face;
@@ -31,22 +34,14 @@ void World::Engine::report(const Time& time, bool last)
     const double threshold = group_.noise() / contactGram(t, t, group_.members);
     const bool hit = std::abs(impulse) > threshold;
     if (hit && !(fresh && last))
-    {
-      ContactEvent contact = contactOf(t, ContactKind::Impact);
-      contact.impulse = impulse;
-      contacts.push_back(contact);
-    }
+      tell(t, ContactKind::Impact, impulse);
     if (impulse > threshold && t.pair != last_pair)
     {
       chargeHit(t);
       last_pair = t.pair;
     }
     if (fresh && last)
-    {
-      ContactEvent contact = contactOf(t, ContactKind::RestBegin);
-      contact.impulse = impulse;
-      contacts.push_back(contact);
-    }
+      tell(t, ContactKind::RestBegin, impulse);
   }
   if (!last)
     return;
@@ -63,8 +58,7 @@ void World::Engine::report(const Time& time, bool last)
     const Member &a = group_.members[ended.member_a], &b = group_.members[ended.member_b];
     locate(ended, bodies[ended.a], a.frame, bodies[ended.b], b.frame);
     ended.approach = normalVelocity(ended, a, b);
-    ContactEvent contact = contactOf(ended, ContactKind::RestEnd);
-    contacts.push_back(contact);
+    tell(ended, ContactKind::RestEnd, 0.0);
   }
 }
 

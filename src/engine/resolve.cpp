@@ -142,14 +142,14 @@ void World::Engine::findTouches(const Time& time, int round)
     const int body = group_.members[m].body;
     if (bodies[body].fixed)
       continue;
-    for (int index : bodies[body].pairs)
+    for (int index = bodies[body].first_pair; index >= 0; index = pairs_[index].nextOf(body))
     {
       if (pair_mark_[index] == mark_)
         continue;
       pair_mark_[index] = mark_;
       group_pairs_.push_back(index);
       const Pair& pair = pairs_[index];
-      const int other = pair.a == body ? pair.b : pair.a;
+      const int other = pair.other(body);
       const Body &first = bodies[pair.a], &second = bodies[pair.b];
       const auto viewed = [&](int which) {
         const int k = member_of_[which];
@@ -184,8 +184,7 @@ void World::Engine::findTouches(const Time& time, int round)
       {
         Touch& touch = group_.touches[t];
         touch.pair = index;
-        for (const Pair::Resting& r : pair.resting)
-          touch.rested = touch.rested || (r.face_of_a == (touch.b == pair.a) && r.face == touch.face && r.vertex == touch.vertex);
+        touch.rested = pair.resting.contains({ touch.b == pair.a, static_cast<unsigned>(touch.face), touch.vertex });
       }
     }
   }

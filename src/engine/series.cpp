@@ -33,10 +33,13 @@ struct BernsteinTable
   }
 };
 
-/// The only root of a decreasing sign change in [low, high]: Newton's method, kept inside a shrinking bracket.
+/// The only root of a decreasing sign change in [low, high]: Newton's method, kept inside a shrinking bracket, from where the first orders alone have
+/// it.
 double onlyRoot(const Series& c, int degree, double floor, double low, double high)
 {
-  double s = 0.5 * (low + high);
+  double s = degree >= 2 ? firstZero(c[0] - floor, c[1], 2.0 * c[2]) : 0.5 * (low + high);
+  if (!(s > low && s < high))
+    s = 0.5 * (low + high);
   for (int i = 0; i < 100; ++i)
   {
     const double value = evaluate(c, degree, s) - floor;

@@ -63,7 +63,7 @@ template <class A>
 void World::Engine::exchange(A& archive)
 {
   archive(now, scene, loaded_, notes, statistics, block_count, bodies, field_, zero_height_, resolution_, dissipative_, links_);
-  archive(grid_, pairs_, free_pairs_, islands_, promises_, stall_after, input_start_, next_input_);
+  archive(grid_, pairs_, free_pair_, islands_, promises_, stall_after, input_start_, next_input_);
   archive(initial_total_, thrust_work_, spring_work_, command_work_, damping_loss_, impact_loss_);
 }
 

@@ -161,9 +161,9 @@ template <class A>
 void exchange(A& archive, Body& body)
 {
   auto& [name, shape, fixed, mass, inertia, inverse_mass, inverse_inertia, elasticity, thrusters, levels, thrust_until, wrench_force,
-         wrench_torque, push, twist, mouse, springs, arc, island, pairs, cost, crowd, crowd_start, crowd_cost] = body;
+         wrench_torque, push, twist, mouse, springs, arc, island, first_pair, cost, crowd, crowd_start, crowd_cost] = body;
   archive(name, shape, fixed, mass, inertia, inverse_mass, inverse_inertia, elasticity, thrusters, levels, thrust_until, wrench_force,
-          wrench_torque, push, twist, mouse, springs, arc, island, pairs, cost, crowd, crowd_start, crowd_cost);
+          wrench_torque, push, twist, mouse, springs, arc, island, first_pair, cost, crowd, crowd_start, crowd_cost);
 }
 
 template <class A>
@@ -181,17 +181,10 @@ void exchange(A& archive, Field& field)
 }
 
 template <class A>
-void exchange(A& archive, Pair::Resting& resting)
-{
-  auto& [face_of_a, face, vertex] = resting;
-  archive(face_of_a, face, vertex);
-}
-
-template <class A>
 void exchange(A& archive, Pair& pair)
 {
-  auto& [a, b, face_of_a, face, face_gap, contact_due, resting] = pair;
-  archive(a, b, face_of_a, face, face_gap, contact_due, resting);
+  auto& [a, b, face_gap, face, next, previous, resting, face_of_a, contact_due] = pair;
+  archive(a, b, face_gap, face, next, previous, resting, face_of_a, contact_due);
 }
 
 template <class A>

@@ -89,9 +89,17 @@ EnergyAccount World::energy() const
 
 std::vector<ContactEvent> World::takeContacts()
 {
-  std::vector<ContactEvent> taken;
-  taken.swap(engine_->contacts);
+  // The world's own memory stays for those to come.
+  std::vector<ContactEvent> taken(engine_->contacts);
+  engine_->contacts.clear();
   return taken;
+}
+
+void World::keepContacts(bool keep)
+{
+  engine_->keep_contacts = keep;
+  if (!keep)
+    engine_->contacts.clear();
 }
 
 std::vector<TimedCommand> World::takeInputs()

@@ -137,6 +137,7 @@ void run(Scene scene, const SimulateOptions& options, Output& output)
   for (const std::string& note : world.notes())
     std::fprintf(stderr, "simulate: note: %s\n", note.c_str());
   BagOutput bag = openBag(options.bag, world);
+  world.keepContacts(output.wantsContacts() || !options.bag.empty());
   const double worst_overlap = advance(world, options, cpu, output, bag);
   output.close();
   bag.close();

@@ -12,6 +12,7 @@ class BlockWorld : public Simulation
 public:
   BlockWorld(const Scene& scene, int samples) : samples_(samples), rate_(frame_rate * samples), world_(scene)
   {
+    world_.keepContacts(false);
   }
 
   void nextFrame() override
