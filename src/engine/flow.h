@@ -23,8 +23,8 @@ struct Rest
 /// Works along the arcs of an island since their start, J.
 struct Works
 {
-  Series thrust{};  ///< done by thrusters and wrenches
-  Series loss{};    ///< taken by damping and by the dampers of springs
+  ProductSeries thrust{};  ///< done by thrusters and wrenches
+  ProductSeries loss{};    ///< taken by damping and by the dampers of springs
   int degree = 0;
 };
 

@@ -39,25 +39,30 @@ void findJerk(Arc& arc)
 }
 }  // namespace
 
-/// Span within which each of the last two orders kept changes no position, direction, velocity or force by more than the truncation error of its
-/// scale. For velocities this is that of the speeds there: positions may be large next to the motion.
+/// Span s within which the first order left out, degree + 1, changes no position, direction, velocity or force by more than the truncation error of
+/// its scale. Orders of a series fall like r^n with r = s / (radius of convergence), or faster, so that eps = r^(degree + 1) asks of order n that
+/// its share of the scale is at most eps^(n / (degree + 1)). The last two orders are asked. For velocities the scale is that of the speeds there:
+/// positions may be large next to the motion.
 double Flow::horizon(int degree) const
 {
   double span = kLongest;
-  const auto last = { degree - 1, degree };
-  for (int n : last)
+  const auto atMost = [&span](double share, double allowed, int n) {
+    if (share > 0.0)
+      span = std::min(span, allowed * std::pow(share, -1.0 / n));
+  };
+  const double allowed = std::pow(kTruncation, 1.0 / (degree + 1));
+  for (int n : { degree - 1, degree })
   {
-    double most = 0.0;
+    double share = 0.0;
     for (std::size_t i = 0; i < work_.size(); ++i)
     {
       const Arc& arc = body_[i]->arc;
       const double radius = body_[i]->shape.radius, size = std::max({ std::abs(arc.x[0]), std::abs(arc.y[0]), radius });
-      most = std::max(most, sizeOf(arc, radius, n) / size);
+      share = std::max(share, sizeOf(arc, radius, n) / size);
       if (work_[i].trigonometric)
-        most = std::max(most, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
+        share = std::max(share, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
     }
-    if (most > 0.0)
-      span = std::min(span, std::pow(kTruncation / most, 1.0 / n));
+    atMost(share, allowed, n);
   }
 
   double largest = 0.0;
@@ -69,10 +74,11 @@ double Flow::horizon(int degree) const
     for (const Rest& rest : *rests_)
       most = std::max(most, std::abs(rest.force[n]));
     if (most > 0.0)
-      span = std::min(span, std::pow(kForceTruncation * largest / most, 1.0 / n));
+      atMost(most / largest, std::pow(kForceTruncation, 1.0 / (degree - 1)), n);
   }
 
-  double most[] = { 0.0, 0.0 };
+  // Velocities over the span found: their shares are known where it ends, and it shrinks by what they are too large.
+  double shares[] = { 0.0, 0.0 };
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     const Arc& arc = body_[i]->arc;
@@ -85,15 +91,14 @@ double Flow::horizon(int degree) const
     }
     if (scale > 0.0)
     {
-      most[0] = std::max(most[0], before / scale);
-      most[1] = std::max(most[1], speed / scale);
+      shares[0] = std::max(shares[0], before / scale);
+      shares[1] = std::max(shares[1], speed / scale);
     }
   }
-  double share = 1.0;
-  for (int n : last)
-    if (most[n - degree + 1] > kTruncation)
-      share = std::min(share, std::pow(kTruncation / most[n - degree + 1], 1.0 / (n - 1)));
-  return share * span;
+  const double all = span, allowed_speed = std::pow(kTruncation, 1.0 / degree);
+  for (int k : { 0, 1 })
+    atMost(shares[k], all * allowed_speed, degree - 2 + k);
+  return span;
 }
 
 void Flow::finish(const std::vector<Body>& bodies, int degree)
@@ -138,7 +143,6 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   }
 }
 
-/// Powers are products of series; what they have beyond the degree is below the truncation error.
 void Flow::findWorks(int degree, Works& works)
 {
   works.degree = 0;
@@ -149,45 +153,56 @@ void Flow::findWorks(int degree, Works& works)
     any = any || link.damping != 0.0;
   if (!any)
     return;
-  works.degree = degree;
+  works.degree = 2 * degree;
   works.thrust.fill(0.0);
   works.loss.fill(0.0);
   VectorSeries rate, force;
   Series spin, shortening;
+  // Powers, as products of series that end: order n of a power is order n + 1 of the work.
+  const int last = degree - 1;
+  const auto lose = [&](double damping, const auto& velocity) {
+    for (int n = 0; n <= 2 * last; ++n)
+      works.loss[n + 1] += damping * cauchySquare(velocity, n, std::max(0, n - last));
+  };
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     const BodyWork& w = work_[i];
     const Body& body = *body_[i];
-    for (int n = 0; n < degree; ++n)
+    for (int n = 0; n <= last; ++n)
     {
       rate[n] = (n + 1) * Vec2(body.arc.x[n + 1], body.arc.y[n + 1]);
       spin[n] = (n + 1) * body.arc.angle[n + 1];
     }
     if (field_->damping > 0.0)
-      for (int n = 0; n < degree; ++n)
-        works.loss[n + 1] += field_->damping * cauchySquare(rate, n, 0) + field_->rotational_damping * cauchySquare(spin, n, 0);
-    if (body.pushed())
-      for (int n = 0; n < degree; ++n)
-      {
-        force[n] = turned(w.direction[n], w.push);
-        works.thrust[n + 1] += cauchy(force, rate, n, 0, n) + body.twist * spin[n];
-      }
+    {
+      lose(field_->damping, rate);
+      lose(field_->rotational_damping, spin);
+    }
+    if (!body.pushed())
+      continue;
+    for (int n = 0; n <= degree; ++n)
+      force[n] = turned(w.direction[n], w.push);
+    for (int n = 0; n <= degree + last; ++n)
+      works.thrust[n + 1] += cauchy(force, rate, n, std::max(0, n - last), std::min(n, degree)) + (n <= last ? body.twist * spin[n] : 0.0);
   }
   for (LinkWork& link : links_)
   {
     if (link.damping == 0.0)
       continue;
     placeEnds(link, degree);
-    if (link.rest_length != 0.0)
-      lengthSeries(link.series, link.series.coincident ? degree - 1 : degree);
-    for (int n = 0; n < degree; ++n)
+    if (link.rest_length == 0.0)
     {
-      rate[n] = (n + 1) * link.series.d[n + 1];
-      shortening[n] = (n + 1) * link.series.length[n + 1];
-      works.loss[n + 1] += link.damping * (link.rest_length == 0.0 ? cauchySquare(rate, n, 0) : cauchySquare(shortening, n, 0));
+      for (int n = 0; n <= last; ++n)
+        rate[n] = (n + 1) * link.series.d[n + 1];
+      lose(link.damping, rate);
+      continue;
     }
+    lengthSeries(link.series, link.series.coincident ? degree - 1 : degree);
+    for (int n = 0; n <= last; ++n)
+      shortening[n] = (n + 1) * link.series.length[n + 1];
+    lose(link.damping, shortening);
   }
-  for (int n = 1; n <= degree; ++n)
+  for (int n = 1; n <= works.degree; ++n)
   {
     works.thrust[n] /= n;
     works.loss[n] /= n;
