@@ -247,9 +247,12 @@ void Flow::contactSolve(int n)
   }
 }
 
-/// Writes order n + 2 of the arcs and what turns with it.
-void Flow::store(int n)
+/// Writes order n + 2 of the arcs and what turns with it. Returns false, with that order zero, where it is so large that squares would overflow: of
+/// a motion within some 1e-6 s or less, which lower orders tell as well.
+bool Flow::store(int n)
 {
+  constexpr double kLargest = 1e130;
+  bool fits = true;
   const double divisor = 1.0 / ((n + 1) * (n + 2));
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
@@ -268,8 +271,17 @@ void Flow::store(int n)
     w.rate[n + 2] = (n + 2) * angle;
     w.direction[n + 2] = w.known + Vec2(0.0, angle);
     w.rotating = w.rotating || angle != 0.0;
+    const Arc& arc = body_[i]->arc;
+    fits = fits && std::abs(arc.x[n + 2]) < kLargest && std::abs(arc.y[n + 2]) < kLargest && std::abs(angle) < kLargest;
   }
   placeRests(n + 2);
+  if (n < 3 || fits)
+    return true;
+  for (Body* body : body_)
+    body->arc.x[n + 2] = body->arc.y[n + 2] = body->arc.angle[n + 2] = 0.0;
+  for (Rest& rest : *rests_)
+    rest.force[n] = 0.0;
+  return false;
 }
 
 /// After order 2: without springs and (where something turns with a body) rotation, everything else is zero if no velocity changes that damping
@@ -324,7 +336,11 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
       contactKnown(n);
       contactSolve(n);
     }
-    store(n);
+    if (!store(n))
+    {
+      degree = n + 1;
+      break;
+    }
     if (n == 0 && endsEarly())
     {
       degree = 2;

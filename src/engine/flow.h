@@ -92,7 +92,7 @@ private:
   void findLevers(int n);
   void contactKnown(int n);
   void contactSolve(int n);
-  void store(int n);
+  bool store(int n);
   bool endsEarly() const;
   bool turns(const RestWork& rest) const
   {
