@@ -11,7 +11,7 @@ namespace block_world
 namespace
 {
 /// Position scale times this is the truncation error allowed per arc: rounding.
-constexpr double kTruncation = 1e-15;
+constexpr double kTruncation = 2e-16;
 
 /// Largest contact force times this is the truncation error allowed for a contact force.
 constexpr double kForceTruncation = 1e-13;
