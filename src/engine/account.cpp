@@ -57,6 +57,46 @@ double World::Engine::springEnergy(const SpringLink& link, const Time& time) con
   return 0.5 * link.stiffness * stretch * stretch;
 }
 
+/// Energy that gravity and springs gain as the group's members move from the frames before to those they have now: of forces that have a potential
+/// only. Damping, thrusters and wrenches do no work where no time passes.
+double World::Engine::storedOnMove() const
+{
+  // Where a point of a body (or of the world) was and is.
+  const auto ends = [&](int body, const Vec2& point) -> std::pair<Vec2, Vec2> {
+    if (body < 0)
+      return { point, point };
+    const int k = member_of_[body];
+    if (k >= 0)
+      return { before_[k].toWorld(point), group_.members[k].frame.toWorld(point) };
+    const Arc& still = bodies[body].arc;  // a fixed one
+    const Vec2 there = Frame(Vec2(still.x[0], still.y[0]), still.angle[0]).toWorld(point);
+    return { there, there };
+  };
+  const auto gain = [&](double stiffness, double rest_length, const std::pair<Vec2, Vec2>& from, const std::pair<Vec2, Vec2>& to) {
+    const double was = (from.first - to.first).norm() - rest_length, is = (from.second - to.second).norm() - rest_length;
+    return 0.5 * stiffness * (is - was) * (is + was);
+  };
+  double sum = 0.0;
+  for (std::size_t k = 0; k < group_.members.size(); ++k)
+  {
+    const Member& m = group_.members[k];
+    const Body& body = bodies[m.body];
+    if (body.fixed)
+      continue;
+    sum += body.mass * field_.gravity * (m.frame.position.y() - before_[k].position.y());
+    if (body.mouse.active)
+      sum += gain(body.mouse.stiffness, 0.0, ends(m.body, body.mouse.attach), ends(-1, body.mouse.anchor));
+    for (int index : body.springs)
+    {
+      const SpringLink& link = links_[index];
+      // One between two that move is listed by both: take it once.
+      if (link.first == m.body || bodies[link.first].fixed)
+        sum += gain(link.stiffness, link.rest_length, ends(link.first, link.first_point), ends(link.second, link.second_point));
+    }
+  }
+  return sum;
+}
+
 double World::Engine::mouseEnergy(const Body& body, const Time& time) const
 {
   if (!body.mouse.active)

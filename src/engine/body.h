@@ -10,16 +10,19 @@
 
 namespace block_world
 {
+/// What the cache of the processor takes in at a time, in bytes. What is looked at most often begins such a line.
+constexpr std::size_t kCacheLine = 64;
+
 /// Exact motion of one body from `start` on: three polynomials in s = t - start, as true as rounding up to `horizon`.
-struct Arc
+struct alignas(kCacheLine) Arc
 {
   Time start;
   double horizon = std::numeric_limits<double>::infinity();  ///< s
   Time end = Time::infinity();                               ///< start + horizon
-  int degree = 0;
-  Series x{}, y{}, angle{};
   /// Bounds of the third derivatives over the horizon (m/s^3, rad/s^3); 0 for parabolas.
   double jerk = 0.0, angular_jerk = 0.0;
+  int degree = 0;
+  Series x{}, y{}, angle{};
 };
 
 /// A body's motion at one instant.
@@ -38,15 +41,25 @@ struct MouseSpring
   Time until = Time::infinity();
 };
 
-/// A block, or a wall (a half-plane without vertices), with everything that acts on it.
-struct Body
+/// A block, or a wall (a half-plane without vertices), with everything that acts on it. First what any look at it needs: in a crowd, memory takes
+/// longer than arithmetic.
+struct alignas(kCacheLine) Body
 {
-  std::string name;
   Polygon shape;
   bool fixed = true;
-  double mass = 0.0, inertia = 0.0;
+  int island = -1;      ///< lowest index among the bodies that move as one with this one
+  int first_pair = -1;  ///< of the list of pairs that this body is one of
   double inverse_mass = 0.0, inverse_inertia = 0.0;  ///< 0 for what cannot move
+  /// To notice time standing still: events since an instant, and what it had cost then.
+  std::int64_t crowd = 0;
+  Time crowd_start;
+  Cost cost;
+  Arc arc;
+
+  std::string name;
+  double mass = 0.0, inertia = 0.0;
   double elasticity = 1.0;
+  Cost crowd_cost;
 
   std::vector<Thruster> thrusters;
   std::vector<double> levels;
@@ -57,16 +70,6 @@ struct Body
   double twist = 0.0;        ///< and their torque
   MouseSpring mouse;
   std::vector<int> springs;  ///< scene springs with an end on this body
-
-  Arc arc;
-  int island = -1;         ///< lowest index among the bodies that move as one with this one
-  int first_pair = -1;     ///< of the list of pairs that this body is one of
-
-  Cost cost;
-  /// To notice time standing still: events since an instant, and what it had cost then.
-  std::int64_t crowd = 0;
-  Time crowd_start;
-  Cost crowd_cost;
 
   bool pushed() const
   {

@@ -189,6 +189,15 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
   return 1.0 - sum < 1e-12;  // the minimum is -sum/2
 }
 
+/// Whether every closed touch opens faster than it could come to rest: then nothing is left to do.
+bool ContactGroup::allLeave() const
+{
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    if (touches[i].gap <= closed_ && velocityOf(static_cast<int>(i)) <= rest_speed_[i])
+      return false;
+  return true;
+}
+
 /// What the last plan pushes and still approaches, however slowly: it bounces before another plan is made.
 void ContactGroup::takeBouncing()
 {
@@ -228,6 +237,11 @@ double ContactGroup::collide(const ContactScales& scales)
     for (int i : all_)
       if (velocityOf(i) < -rest_speed_[i])
         approaching_.push_back(i);
+    if (approaching_.empty() && allLeave())
+    {
+      clean();
+      return lossSince(start_);
+    }
     if (!approaching_.empty())
       bouncing_.clear();
     else
@@ -273,7 +287,7 @@ bool ContactGroup::struck() const
   return std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.impulse != 0.0 || t.capture != 0.0; });
 }
 
-double ContactGroup::settlePositions(double resolution, double& loss)
+double ContactGroup::settlePositions(double resolution)
 {
   // min |dq| in the mass metric with gap + J dq = 0. A gap that takes far larger moves to close, on a short lever, stays as it is.
   constexpr double kShortLever = 1e-6;  // square of the share of the others' lengths
@@ -300,15 +314,8 @@ double ContactGroup::settlePositions(double resolution, double& loss)
 
   sumChanges(pressed_, solution_, changes_);
   for (std::size_t m = 0; m < members.size(); ++m)
-  {
-    Member& member = members[m];
-    if (member.inverse_mass == 0.0)
-      continue;
-    const Vec2& shift = changes_[m].velocity;
-    const double turn = changes_[m].omega;
-    loss += member.acceleration.dot(shift) / member.inverse_mass + member.alpha * turn / member.inverse_inertia;
-    place(member, shift, turn);
-  }
+    if (members[m].inverse_mass > 0.0)
+      place(members[m], changes_[m].velocity, changes_[m].omega);
   return lowest;
 }
 

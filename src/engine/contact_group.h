@@ -47,8 +47,8 @@ public:
   bool struck() const;
 
   /// Moves the members as little as possible (mass metric) so that the gaps of the active touches, and those deeper than the resolution,
-  /// vanish. Returns the largest gap closed, and adds the work that the free forces do on the way, which the capture takes, to loss.
-  double settlePositions(double resolution, double& loss);
+  /// vanish. Returns the largest gap closed.
+  double settlePositions(double resolution);
 
   /// After settlePositions and with the new geometry: the active touches neither approach nor open. Returns the energy lost.
   double holdActive();
@@ -75,6 +75,7 @@ private:
   double shareOfRebound(const std::vector<int>& rows, double projection);
   void stop();
   void clean();
+  bool allLeave() const;
   void takeBouncing();
   bool anyElastic(const std::vector<int>& rows) const;
   bool isLocked(const std::vector<int>& rows);

@@ -260,12 +260,50 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
   return certificate;
 }
 
+/// Where nothing turns and both accelerate alike every gap changes at a constant rate: the bodies meet when the last of the closing gaps is closed, if
+/// none of the others is open by then. Returns whether that decides; not where gaps close and open within the tolerance of each other, and not where
+/// so long a way has been gone by then that the gap is off by more than coordinates resolve.
+bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate)
+{
+  constexpr double kRounding = 2.220446049250313e-16;
+  const Vec2 relative = b.now->velocity - a.now->velocity;
+  const Side* last = nullptr;
+  double span = 0.0;
+  for (Side& side : sides_)
+  {
+    const View& f = side.of_a ? a : b;
+    const double rate = f.frame.rotate(f.body->shape.faces[side.face].normal).dot(relative);
+    side.rate = side.of_a ? rate : -rate;
+    if (side.rate < 0.0 && side.gap > -side.rate * span)
+    {
+      span = side.gap / -side.rate;
+      last = &side;
+    }
+  }
+  certificate = { horizon, false };
+  if (last == nullptr || span >= horizon)
+    return true;
+  double opened = -kNever;
+  for (const Side& side : sides_)
+    if (side.rate >= 0.0)
+      opened = std::max(opened, side.gap + side.rate * span);
+  if (opened > tolerance_)
+    return true;
+  if (opened > -tolerance_ || kRounding * relative.norm() * span > resolution_)
+    return false;
+  pair.face_of_a = last->of_a;
+  pair.face = last->face;
+  certificate = { span, true };
+  return true;
+}
+
 double Detector::certify(Pair& pair, const View& a, const View& b, const Time& time, double horizon)
 {
   time_ = time;
   pair.contact_due = false;
   face_local_.body = vertex_local_.body = nullptr;
-  if (pair.face >= 0)
+  const bool straight = !turns(a) && !turns(b) && a.now->acceleration == b.now->acceleration;
+  if (pair.face >= 0 && !straight)
   {
     const View &f = pair.face_of_a ? a : b, &v = pair.face_of_a ? b : a;
     const double gap = faceGap(f.body->shape.faces[pair.face], f.frame, v.body->shape, v.frame);
@@ -278,14 +316,20 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
     const View &f = side == 0 ? a : b, &v = side == 0 ? b : a;
     if (!v.body->shape.vertices.empty())
       for (std::size_t i = 0; i < f.body->shape.faces.size(); ++i)
-        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame) });
+        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame), 0.0 });
   }
   const auto best = std::max_element(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.gap < q.gap; });
   pair.face_of_a = best->of_a;
   pair.face = best->face;
   pair.face_gap = best->gap;
   if (best->gap > 0.5 * tolerance_)
-    return face(pair, pair.face_of_a, pair.face, pair.face_of_a ? a : b, pair.face_of_a ? b : a, horizon).span;
+  {
+    Certificate certificate;
+    if (!straight || !closing(pair, a, b, horizon, certificate))
+      certificate = face(pair, pair.face_of_a, pair.face, pair.face_of_a ? a : b, pair.face_of_a ? b : a, horizon);
+    pair.contact_due = certificate.contact;
+    return certificate.span;
+  }
 
   // In the shell several faces may separate the bodies; they stay apart as long as one of them does.
   const double least = std::min(best->gap, 0.0) - 2.0 * guard_;

@@ -136,6 +136,7 @@ private:
   };
   double curvature(const View& face_view, const View& vertex_view, double horizon) const;
   Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
+  bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
   Certificate shell(const Face& face, const Vec2& vertex, double gap, const View& face_view, const View& vertex_view, double horizon);
   void localSeries(const View& view, bool of_face);
 
@@ -161,7 +162,7 @@ private:
   {
     bool of_a;
     int face;
-    double gap;
+    double gap, rate;
   };
   std::vector<Side> sides_;
 };

@@ -253,6 +253,8 @@ void World::Engine::keep(int slot, const Time& time)
   {
     const int pair = slot - pairSlot(0);
     const int a = pairs_[pair].a, b = pairs_[pair].b;
+    fetch(a);
+    fetch(b);
     if (!pairs_[pair].contact_due)
     {
       kind_ = CostKind::Look;

@@ -132,8 +132,9 @@ private:
   void findTouches(const Time& time, int round);
   void report(const Time& time, bool last);  // report.cpp
   void settle();
+  void fetch(int body) const;
   const Snapshot& snapshot(int body, const Time& time);
-  const Frame& frame(int body, const Time& time);
+  Frame frame(int body, const Time& time);
   void freeAcceleration(Member& member) const;
 
   // islands.cpp: who moves as one, and how
@@ -155,6 +156,7 @@ private:
   void stored(const Time& time, EnergyAccount& energy) const;
   double storedTotal(const Time& time) const;
   double springEnergy(const SpringLink& link, const Time& time) const;
+  double storedOnMove() const;
   double mouseEnergy(const Body& body, const Time& time) const;
   void restartAccount();
 
@@ -199,12 +201,12 @@ private:
   double initial_total_ = 0.0, thrust_work_ = 0.0, spring_work_ = 0.0, command_work_ = 0.0, damping_loss_ = 0.0, impact_loss_ = 0.0;
 
   // Workspace of an event.
-  struct Cached
+  struct alignas(kCacheLine) Cached
   {
     Time time = Time::infinity();
-    bool framed = false;
     Snapshot now;
-    Frame frame;
+    double cosine = 1.0, sine = 0.0;
+    bool framed = false;
   };
   std::vector<Cached> cache_;
   std::vector<int> seeds_, member_of_, group_pairs_, component_, island_members_;
@@ -212,6 +214,7 @@ private:
   int mark_ = 0;
   std::vector<Rest> former_rests_;
   std::vector<Member> island_state_;
+  std::vector<Frame> before_;  ///< of the group's members, before they are moved
   bool velocity_decided_ = false;
   CostKind kind_ = CostKind::Command;  ///< what is being done
 };

@@ -132,8 +132,8 @@ void exchange(A& archive, Polygon& polygon)
 template <class A>
 void exchange(A& archive, Arc& arc)
 {
-  auto& [start, horizon, end, degree, x, y, angle, jerk, angular_jerk] = arc;
-  archive(start, horizon, end, degree, x, y, angle, jerk, angular_jerk);
+  auto& [start, horizon, end, jerk, angular_jerk, degree, x, y, angle] = arc;
+  archive(start, horizon, end, jerk, angular_jerk, degree, x, y, angle);
 }
 
 template <class A>
@@ -160,10 +160,10 @@ void exchange(A& archive, Cost& cost)
 template <class A>
 void exchange(A& archive, Body& body)
 {
-  auto& [name, shape, fixed, mass, inertia, inverse_mass, inverse_inertia, elasticity, thrusters, levels, thrust_until, wrench_force,
-         wrench_torque, push, twist, mouse, springs, arc, island, first_pair, cost, crowd, crowd_start, crowd_cost] = body;
-  archive(name, shape, fixed, mass, inertia, inverse_mass, inverse_inertia, elasticity, thrusters, levels, thrust_until, wrench_force,
-          wrench_torque, push, twist, mouse, springs, arc, island, first_pair, cost, crowd, crowd_start, crowd_cost);
+  auto& [shape, fixed, island, first_pair, inverse_mass, inverse_inertia, crowd, crowd_start, cost, arc, name, mass, inertia, elasticity,
+         crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs] = body;
+  archive(shape, fixed, island, first_pair, inverse_mass, inverse_inertia, crowd, crowd_start, cost, arc, name, mass, inertia, elasticity,
+          crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs);
 }
 
 template <class A>

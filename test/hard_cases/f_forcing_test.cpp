@@ -95,6 +95,35 @@ TEST(Forcing, StiffSpring)
   }
 }
 
+// A block shot down at 1000 m/s stops dead on the floor, up to an instant's rounding of 1.1e-16 s, which is 1e-13 m, too high or too low; it is put
+// exactly there. Damping of 1e6 N does no work on that way, as no time passes: 1e-7 J, of which the account of 5e5 J would tell.
+TEST(Forcing, LandingUnderHugeDamping)
+{
+  const double k = 1000.0, g = 9.8, speed = 1000.0;
+  for (int i = 0; i < 40; ++i)
+  {
+    SCOPED_TRACE(i);
+    const double fall = 0.3 + 0.01 * i;
+    Scene scene = makeScene(g, 0.0, { moving(makeBox("a", { 1, 1 }, { 0, 0.5 + fall }), { 0, -speed }) }, onFloor());
+    scene.damping = k;
+    World world(scene, Time::fromSeconds(0.9));  // where the next digit of a second is 1.1e-16 s
+    const double start = world.energy().total;
+    run(world, 3.0);
+    // With mass 1: v' = g - k v, so that v = speed + g t - k y when it has fallen y; the time by Newton's method.
+    const double end_speed = g / k;
+    const auto speedAt = [&](double t) { return end_speed + (speed - end_speed) * std::exp(-k * t); };
+    double t = 0.0;
+    for (int step = 0; step < 50; ++step)
+      t -= ((speed + g * t - speedAt(t)) / k - fall) / speedAt(t);
+    const EnergyAccount end = world.energy();
+    EXPECT_NEAR(end.total, 0.5 * g, 4.0 * rounding * g);
+    // Heights and speeds are rounded to 1e-16 of 1000 m/s and 1e-13 m times k = 1000 1/s.
+    EXPECT_NEAR(end.impact_loss, 0.5 * speedAt(t) * speedAt(t), 4e-10 * speedAt(t));
+    EXPECT_NEAR(end.damping_loss + end.impact_loss, start - end.total, 4.0 * rounding * start);
+    EXPECT_NEAR(end.balance_error, 0.0, 4.0 * rounding * start);
+  }
+}
+
 Scene makeDamped(double damping)
 {
   Scene scene = makeScene(9.8, 1.0, { moving(makeBox("a", { 1, 1 }, { 0, 0 }), { 1, 0 }, 1.0) });

@@ -18,8 +18,11 @@ void expectDigitsOfPi(int k, std::int64_t impacts)
   Scene scene = shipped("pi_collisions");
   scene.blocks[0].mass = std::pow(100.0, k);
   World world(scene);
+  world.keepContacts(false);
   run(world, 1000.0);
   EXPECT_EQ(world.statistics().impacts, impacts) << k;
+  // Nothing turns, so that each hit is foreseen at once. Besides there are looks at cells of 1.6 m, which the blocks cross at up to 2 m/s.
+  EXPECT_LE(world.statistics().events, impacts + impacts / 50 + 2000) << k;
   // An impact rounds the energies of its blocks by 2e-16; the same numbers again and again round the same way, so that
   // these add up.
   EXPECT_NEAR(world.energy().total / (0.5 * std::pow(100.0, k)), 1.0,
@@ -36,12 +39,12 @@ TEST(ExactCounts, DigitsOfPi)
   expectDigitsOfPi(2, 314);
   expectDigitsOfPi(3, 3141);
   expectDigitsOfPi(4, 31415);
+  expectDigitsOfPi(5, 314159);
 }
 
-// The event rate: 3 million impacts. --gtest_also_run_disabled_tests --gtest_filter=*MoreDigits*
+// The event rate: 3 million impacts, in some 4 s. --gtest_also_run_disabled_tests --gtest_filter=*MoreDigits*
 TEST(ExactCounts, DISABLED_MoreDigitsOfPi)
 {
-  expectDigitsOfPi(5, 314159);
   expectDigitsOfPi(6, 3141592);
 }
 
