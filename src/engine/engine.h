@@ -133,6 +133,7 @@ private:
   void report(const Time& time, bool last);  // report.cpp
   void settle();
   void fetch(int body) const;
+  void fetchShape(int body) const;
   const Snapshot& snapshot(int body, const Time& time);
   Frame frame(int body, const Time& time);
   void freeAcceleration(Member& member) const;

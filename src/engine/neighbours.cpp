@@ -155,6 +155,8 @@ void World::Engine::lookAtPair(int index, const Time& time)
   pair.contact_due = false;
   if (span < 0.0)
   {
+    fetchShape(pair.a);
+    fetchShape(pair.b);
     const View view_a{ &a, &now_a, frame(pair.a, time) }, view_b{ &b, &now_b, frame(pair.b, time) };
     span = detector_.certify(pair, view_a, view_b, time, horizon);
   }

@@ -9,17 +9,27 @@ namespace
 {
 /// Relative rounding of coordinates; in s, what instants differ by at least (Time).
 constexpr double kRounding = 2.220446049250313e-16;
+
+void fetchLines(const void* from, const void* to)
+{
+  for (const char* line = static_cast<const char*>(from); line < static_cast<const char*>(to); line += kCacheLine)
+    __builtin_prefetch(line);
+}
 }  // namespace
 
 /// Has what a look at a body needs brought from memory, all at once, where one after the other would take several times as long.
 void World::Engine::fetch(int body) const
 {
-  const char* const start = reinterpret_cast<const char*>(&bodies[body]);
-  const char* const end = reinterpret_cast<const char*>(&bodies[body].arc.angle[3]);
-  for (const char* line = start; line < end; line += kCacheLine)
-    __builtin_prefetch(line);
-  for (const char* line = reinterpret_cast<const char*>(&cache_[body]); line < reinterpret_cast<const char*>(&cache_[body] + 1); line += kCacheLine)
-    __builtin_prefetch(line);
+  fetchLines(&bodies[body], &bodies[body].arc.angle[3]);
+  fetchLines(&cache_[body], &cache_[body] + 1);
+}
+
+/// The same for what a close look needs.
+void World::Engine::fetchShape(int body) const
+{
+  const Polygon& shape = bodies[body].shape;
+  fetchLines(shape.vertices.data(), shape.vertices.data() + shape.vertices.size());
+  fetchLines(shape.faces.data(), shape.faces.data() + shape.faces.size());
 }
 
 const Snapshot& World::Engine::snapshot(int body, const Time& time)
