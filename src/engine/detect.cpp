@@ -260,9 +260,9 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
   return certificate;
 }
 
-/// Where nothing turns and both accelerate alike every gap changes at a constant rate: the bodies meet when the last of the closing gaps is closed, if
-/// none of the others is open by then. Returns whether that decides; not where gaps close and open within the tolerance of each other, and not where
-/// so long a way has been gone by then that the gap is off by more than coordinates resolve.
+/// Where nothing turns and both accelerate alike every gap changes at a constant rate: the bodies meet when the last of the closing gaps is
+/// closed, if none of the others is open by then. Returns whether that decides; not where gaps close and open within the tolerance of each
+/// other, and not where so long a way has been gone by then that the gap is off by more than coordinates resolve.
 bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate)
 {
   constexpr double kRounding = 2.220446049250313e-16;
