@@ -119,8 +119,9 @@ TEST(Forcing, LandingUnderHugeDamping)
     EXPECT_NEAR(end.total, 0.5 * g, 4.0 * rounding * g);
     // Heights and speeds are rounded to 1e-16 of 1000 m/s and 1e-13 m times k = 1000 1/s.
     EXPECT_NEAR(end.impact_loss, 0.5 * speedAt(t) * speedAt(t), 4e-10 * speedAt(t));
-    EXPECT_NEAR(end.damping_loss + end.impact_loss, start - end.total, 4.0 * rounding * start);
-    EXPECT_NEAR(end.balance_error, 0.0, 4.0 * rounding * start);
+    // The loss by damping is a sum over some ten arcs.
+    EXPECT_NEAR(end.damping_loss + end.impact_loss, start - end.total, 16.0 * rounding * start);
+    EXPECT_NEAR(end.balance_error, 0.0, 16.0 * rounding * start);
   }
 }
 
