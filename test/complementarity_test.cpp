@@ -295,6 +295,38 @@ TEST(Complementarity, LockedRowsEnd)
   }
 }
 
+// In a space without clearance touches depend on each other but for little. What enters there may leave by rounding; rows that are far from dependent
+// on any other keep their load then.
+TEST(Complementarity, NearlyDependentRowsDriveNoOthersOut)
+{
+  constexpr int kRank = 6, kExtra = 4;
+  constexpr double kLittle = 1e-6;
+  Random random(1);
+  for (int i = 0; i < 500; ++i)
+  {
+    Rows rows = randomRows(random, kRank, kRank);
+    for (int k = 0; k < kExtra; ++k)
+    {
+      const std::vector<double> p = rows[random.below(kRank + k)], q = rows[random.below(kRank + k)];
+      rows.emplace_back();
+      for (int c = 0; c < kRank; ++c)
+        rows.back().push_back(-p[c] - q[c] + kLittle * random.in(-1.0, 1.0));
+    }
+    const std::vector<double> u = randomRows(random, 1, kRank).front();
+    const SymmetricMatrix a = gramOf(rows);
+    std::vector<double> b;
+    for (const auto& row : rows)
+      b.push_back(dot(row, u));
+    Complementarity solver;
+    const std::vector<int> names = all(kRank + kExtra);
+    solver.solve(a, names, b);
+    const std::vector<double> al = product(a, names, solver.value());
+    // What the combination leaves of a row, little times u of size 2, counts as nothing; through four rows of twice the former ones' at worst 16 of it.
+    for (std::size_t k = 0; k < b.size(); ++k)
+      EXPECT_GE(al[k] + b[k], -16.0 * 2.0 * kLittle) << i;
+  }
+}
+
 // Gordan: unit normals of the plane are locked exactly if no gap between neighbouring directions exceeds half a turn.
 TEST(Complementarity, TestOfGordan)
 {

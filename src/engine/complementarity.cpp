@@ -291,6 +291,18 @@ void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>
   search(noise);
 }
 
+/// A row that entered and left at once did so by rounding. Whatever it drove out on its way is taken back, or it would come again without end.
+void Complementarity::undo(int entered)
+{
+  for (int i : before_)
+    state_[i] = 1;
+  state_[entered] = 2;
+  l_ = l_before_;
+  const auto from = std::mismatch(passive_.begin(), passive_.end(), before_.begin(), before_.end()).first - passive_.begin();
+  passive_ = before_;
+  refactor(static_cast<int>(from));
+}
+
 /// Takes in what is most negative until nothing is.
 void Complementarity::search(double noise)
 {
@@ -318,11 +330,13 @@ void Complementarity::search(double noise)
     }
     if (best < 0)
       break;
+    before_ = passive_;
+    l_before_ = l_;
     if (enter(best))
     {
       settle();
       if (state_[best] != 1)
-        state_[best] = 2;  // entered and left at once: rounding
+        undo(best);
       else
         for (int i = held_; i < n; ++i)
           if (state_[i] == 2)

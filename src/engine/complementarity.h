@@ -131,6 +131,7 @@ private:
   double gradient(int i, double& magnitude) const;
   bool enter(int i);
   void settle();
+  void undo(int entered);
   void refactor(int from);
   void solvePassive(std::vector<double>& x);
   bool rowOf(int position, int candidate);
@@ -144,6 +145,8 @@ private:
   int held_ = 0;             ///< the first so many passive rows stay passive
   std::vector<char> state_;  ///< 0 at zero, 1 passive, 2 redundant for now
   std::vector<double> l_, x_, residual_, row_;
+  std::vector<int> before_;          ///< the passive rows before one entered
+  std::vector<double> l_before_;
   std::vector<int> support_;
 };
 
