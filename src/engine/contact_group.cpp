@@ -76,14 +76,14 @@ void ContactGroup::scale(const ContactScales& scales)
   // Rounding of a velocity that is a difference of larger ones, those before the event included.
   noise_ = std::max(noise_, kSpeedNoise * speed);
   // A bounce at speed v under the acceleration a rises v^2 / 2a: below sqrt(8 a delta) never more than 4 delta, so that the rest of the
-  // decaying series of bounces is replaced by its limit. A contact that loses nothing has no such limit; there only what the
-  // coordinates cannot resolve is taken away.
+  // decaying series of bounces is replaced by its limit. A contact that loses nothing has no such limit; there only what
+  // cannot be seen is taken away: a touch left alone sinks by the guard and comes back with v^2 = 2 a guard, of which this is twice as much.
   rest_speed_.resize(touches.size());
   depth_.resize(touches.size());
   for (std::size_t i = 0; i < touches.size(); ++i)
   {
     const bool lossless = touches[i].elasticity == 1.0 && !scales.dissipative;
-    depth_[i] = lossless ? scales.resolution : scales.tolerance;
+    depth_[i] = lossless ? 0.5 * scales.guard : scales.tolerance;
     rest_speed_[i] = std::max(noise_, std::sqrt(8.0 * depth_[i] * acceleration_scale_));
   }
 }

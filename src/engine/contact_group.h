@@ -14,7 +14,7 @@ constexpr double kSpeedNoise = 1e-13;
 struct ContactScales
 {
   double tolerance = 1e-6;      ///< m, the contact shell
-  double resolution = 1e-14;    ///< m, what the coordinates can resolve
+  double guard = 1.6e-13;       ///< m, how far a gap may sink below zero before it is an event
   double closed = 1e-13;        ///< m, a gap up to this is zero but for rounding
   bool dissipative = false;     ///< damping or a damper takes energy between impacts
 };

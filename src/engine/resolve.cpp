@@ -237,7 +237,7 @@ void World::Engine::resolve(const Time& time)
 
   ContactScales scales;
   scales.tolerance = scene.tolerance;
-  scales.resolution = resolution_;
+  scales.guard = detector_.guard();
   scales.dissipative = dissipative_;
   former_rests_.clear();
   // Corner on corner is decided by the velocities: look again with the new ones.
