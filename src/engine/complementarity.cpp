@@ -170,6 +170,8 @@ void Complementarity::settle()
         blocking = static_cast<int>(k);
       }
     }
+    if (blocking >= 0)
+      keep();
     for (std::size_t k = 0; k < passive_.size(); ++k)
       l_[passive_[k]] += step * (x_[k] - l_[passive_[k]]);
     if (blocking < 0)
@@ -211,6 +213,7 @@ bool Complementarity::enter(int i)
     state_[i] = 2;
     return false;
   }
+  keep();
   for (int k = 0; k < n; ++k)
     l_[passive_[k]] = k < held_ ? l_[passive_[k]] - step * x_[k] : std::max(0.0, l_[passive_[k]] - step * x_[k]);
   l_[passive_[blocking]] = 0.0;
@@ -291,12 +294,24 @@ void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>
   search(noise);
 }
 
+/// Before a row leaves: what is passive, the one that just entered last, and its loads.
+void Complementarity::keep()
+{
+  if (kept_)
+    return;
+  kept_ = true;
+  before_ = passive_;
+  l_before_ = l_;
+}
+
 /// A row that entered and left at once did so by rounding. Whatever it drove out on its way is taken back, or it would come again without end.
 void Complementarity::undo(int entered)
 {
   for (int i : before_)
     state_[i] = 1;
   state_[entered] = 2;
+  if (before_.back() == entered)
+    before_.pop_back();
   l_ = l_before_;
   const auto from = std::mismatch(passive_.begin(), passive_.end(), before_.begin(), before_.end()).first - passive_.begin();
   passive_ = before_;
@@ -330,8 +345,7 @@ void Complementarity::search(double noise)
     }
     if (best < 0)
       break;
-    before_ = passive_;
-    l_before_ = l_;
+    kept_ = false;
     if (enter(best))
     {
       settle();

@@ -131,6 +131,7 @@ private:
   double gradient(int i, double& magnitude) const;
   bool enter(int i);
   void settle();
+  void keep();
   void undo(int entered);
   void refactor(int from);
   void solvePassive(std::vector<double>& x);
@@ -147,6 +148,7 @@ private:
   std::vector<double> l_, x_, residual_, row_;
   std::vector<int> before_;          ///< the passive rows before one entered
   std::vector<double> l_before_;
+  bool kept_ = false;                ///< whether these two are known
   std::vector<int> support_;
 };
 
