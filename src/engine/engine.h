@@ -130,7 +130,8 @@ private:
   Member memberAt(int body, const Time& time);
   int memberOf(int body, const Time& time);
   void findTouches(const Time& time, int round);
-  void report(const Time& time, bool last);  // report.cpp
+  void report(const Time& time, bool last);  // report.cpp, as is tell
+  void tell(const Touch& touch, ContactKind kind, double impulse, const Time& time);
   void settle();
   void fetch(int body) const;
   void fetchShape(int body) const;
@@ -141,6 +142,8 @@ private:
   // islands.cpp: who moves as one, and how
   void regroup(const Time& time);
   void launch(const Time& time, const std::vector<int>& members);
+  double leastForce(const Island& island) const;
+  bool letGo(Island& island, const Time& time);
   void move(Island& island, const Time& time);
   bool isStill(const Island& island) const;
   void sleep(Island& island);

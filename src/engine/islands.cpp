@@ -91,11 +91,42 @@ void World::Engine::launch(const Time& time, const std::vector<int>& members)
     if (rest.touch.member_a < 0 && rest.touch.member_b < 0)
       continue;
     island.rests.push_back(rest);
-    Pair& pair = pairs_[t.pair];
-    pair.resting.add({ pair.a == t.b, static_cast<unsigned>(t.face), t.vertex });
   }
-  move(island, time);
+  do
+    move(island, time);
+  while (letGo(island, time));
+  for (const Rest& rest : island.rests)
+  {
+    Pair& pair = pairs_[rest.touch.pair];
+    pair.resting.add({ pair.a == rest.touch.b, static_cast<unsigned>(rest.touch.face), rest.touch.vertex });
+  }
   promiseIsland(name, time);
+}
+
+/// Below this a contact force pulls; what is nearer to zero is rounding.
+double World::Engine::leastForce(const Island& island) const
+{
+  double largest = 0.0;
+  for (const Rest& rest : island.rests)
+    largest = std::max(largest, std::abs(rest.force[0]));
+  return -1e-12 * largest;
+}
+
+/// Lets the touch go that pulls most at the start of new arcs, if any does. The plan had it press, by less than the rounding of forces that depend on
+/// each other nearly, so that its force is zero; as an event it would come again at once, and again.
+bool World::Engine::letGo(Island& island, const Time& time)
+{
+  const auto least = std::min_element(island.rests.begin(), island.rests.end(), [](const Rest& p, const Rest& q) { return p.force[0] < q.force[0]; });
+  if (least == island.rests.end() || least->force[0] >= leastForce(island))
+    return false;
+  for (Touch& t : group_.touches)
+    if (t.active && sameTouch(t, least->touch))
+    {
+      t.active = false;
+      tell(t, ContactKind::RestEnd, 0.0, time);
+    }
+  island.rests.erase(least);
+  return true;
 }
 
 /// New arcs of an island from island_state_ on.
@@ -149,13 +180,11 @@ void World::Engine::promiseIsland(int name, const Time& time)
   const Island& island = islands_[name];
   const Arc& arc = bodies[island.bodies.front()].arc;
   double span = arc.horizon;
-  double largest = 0.0;
-  for (const Rest& rest : island.rests)
-    largest = std::max(largest, std::abs(rest.force[0]));
+  const double least = leastForce(island);
   for (const Rest& rest : island.rests)
   {
     if (rest.degree > 2)
-      span = std::min(span, firstBelow(rest.force, rest.degree - 2, span, -1e-12 * largest));
+      span = std::min(span, firstBelow(rest.force, rest.degree - 2, span, least));
     const Face& face = bodies[rest.touch.b].shape.faces[rest.touch.face];
     if (std::isinf(face.length))
       continue;

@@ -6,27 +6,27 @@
 
 namespace block_world
 {
+/// Notes a contact for whoever takes it.
+void World::Engine::tell(const Touch& t, ContactKind kind, double impulse, const Time& time)
+{
+  if (!keep_contacts)
+    return;
+  ContactEvent contact;
+  contact.time = time;
+  contact.kind = kind;
+  contact.a = t.a;
+  contact.b = t.b;
+  contact.point = group_.members[t.member_a].frame.position + t.arm;
+  contact.normal = t.normal;
+  contact.normal_velocity = t.approach;
+  contact.impulse = impulse;
+  contacts.push_back(contact);
+}
+
 /// What the last collide did, as contacts.
 void World::Engine::report(const Time& time, bool last)
 {
   int last_pair = -1;
-  const auto tell = [&](const Touch& t, ContactKind kind, double impulse) {
-    if (!keep_contacts)
-      return;
-    ContactEvent contact;
-    contact.time = time;
-    contact.kind = kind;
-    contact.a = t.a;
-    contact.b = t.b;
-    contact.point = group_.members[t.member_a].frame.position + t.arm;
-    contact.normal = t.normal;
-    contact.normal_velocity = t.approach;
-    contact.impulse = impulse;
-    contacts.push_back(contact);
-  };
-  const auto same = [](const Touch& p, const Touch& q) {
-    return p.a == q.a && p.b == q.b && p.vertex == q.vertex && p.face == q.face;
-  };
   for (const Touch& t : group_.touches)
   {
     const bool fresh = t.active && !t.rested;
@@ -34,14 +34,14 @@ void World::Engine::report(const Time& time, bool last)
     const double threshold = group_.noise() / contactGram(t, t, group_.members);
     const bool hit = std::abs(impulse) > threshold;
     if (hit && !(fresh && last))
-      tell(t, ContactKind::Impact, impulse);
+      tell(t, ContactKind::Impact, impulse, time);
     if (impulse > threshold && t.pair != last_pair)
     {
       chargeHit(t);
       last_pair = t.pair;
     }
     if (fresh && last)
-      tell(t, ContactKind::RestBegin, impulse);
+      tell(t, ContactKind::RestBegin, impulse, time);
   }
   if (!last)
     return;
@@ -49,7 +49,7 @@ void World::Engine::report(const Time& time, bool last)
   {
     bool gone = true;
     for (const Touch& t : group_.touches)
-      gone = gone && !(t.active && same(former.touch, t));
+      gone = gone && !(t.active && sameTouch(former.touch, t));
     if (!gone)
       continue;
     Touch ended = former.touch;
@@ -58,7 +58,7 @@ void World::Engine::report(const Time& time, bool last)
     const Member &a = group_.members[ended.member_a], &b = group_.members[ended.member_b];
     locate(ended, bodies[ended.a], a.frame, bodies[ended.b], b.frame);
     ended.approach = normalVelocity(ended, a, b);
-    tell(ended, ContactKind::RestEnd, 0.0);
+    tell(ended, ContactKind::RestEnd, 0.0, time);
   }
 }
 

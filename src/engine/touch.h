@@ -44,6 +44,12 @@ struct Touch
   bool active = false;    ///< carries force: a constraint of the next arcs
 };
 
+/// Whether the two are of the same vertex on the same face.
+inline bool sameTouch(const Touch& p, const Touch& q)
+{
+  return p.a == q.a && p.b == q.b && p.vertex == q.vertex && p.face == q.face;
+}
+
 /// Where the touch is with its bodies in these frames: arm, reach, normal (a corner's stays), gap and place along the face.
 void locate(Touch& touch, const Body& a, const Frame& frame_a, const Body& b, const Frame& frame_b);
 
