@@ -73,7 +73,7 @@ double Flow::horizon(int degree) const
     double most = 0.0;
     for (const Rest& rest : *rests_)
       most = std::max(most, std::abs(rest.force[n]));
-    if (most > 0.0)
+    if (largest > 0.0)
       atMost(most / largest, std::pow(kForceTruncation, 1.0 / (degree - 1)), n);
   }
 
