@@ -13,25 +13,36 @@ constexpr int kHalvings = 50;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// binomial(i, j) / binomial(kOrder, j): Bernstein coefficient i of a power series on [0, 1] is the sum over j <= i of this times a_j.
-struct BernsteinTable
+struct Binomials
 {
-  double weight[kOrder + 1][kOrder + 1];
+  double of[kOrder + 1][kOrder + 1] = {};
 
-  BernsteinTable()
+  Binomials()
   {
-    double binomial[kOrder + 1][kOrder + 1] = {};
     for (int i = 0; i <= kOrder; ++i)
     {
-      binomial[i][0] = 1.0;
+      of[i][0] = 1.0;
       for (int j = 1; j <= i; ++j)
-        binomial[i][j] = binomial[i - 1][j - 1] + (j < i ? binomial[i - 1][j] : 0.0);
+        of[i][j] = of[i - 1][j - 1] + (j < i ? of[i - 1][j] : 0.0);
     }
-    for (int i = 0; i <= kOrder; ++i)
-      for (int j = 0; j <= kOrder; ++j)
-        weight[i][j] = j <= i ? binomial[i][j] / binomial[kOrder][j] : 0.0;
   }
 };
+
+/// Bernstein coefficients on [0, 1] of a power series of that degree n: the i-th is the sum over j <= i of a_j binomial(i, j) / binomial(n, j).
+Series bernsteinOf(const Series& a, int degree)
+{
+  static const Binomials binomial;
+  Series shares, result;
+  for (int j = 0; j <= degree; ++j)
+    shares[j] = a[j] / binomial.of[degree][j];
+  for (int i = 0; i <= degree; ++i)
+  {
+    result[i] = 0.0;
+    for (int j = 0; j <= i; ++j)
+      result[i] += binomial.of[i][j] * shares[j];
+  }
+  return result;
+}
 
 /// The only root of a decreasing sign change in [low, high]: Newton's method, kept inside a shrinking bracket, from where the first orders alone have
 /// it.
@@ -61,8 +72,8 @@ double search(const Series& c, int degree, double floor, const Series& bernstein
     return low;
   int changes = 0;
   bool above = true;
-  for (double b : bernstein)
-    if ((b > floor) != above)
+  for (int i = 0; i <= degree; ++i)
+    if ((bernstein[i] > floor) != above)
     {
       above = !above;
       ++changes;
@@ -76,9 +87,9 @@ double search(const Series& c, int degree, double floor, const Series& bernstein
 
   Series left, right = bernstein;
   left[0] = right[0];
-  for (int k = 1; k <= kOrder; ++k)
+  for (int k = 1; k <= degree; ++k)
   {
-    for (int i = 0; i <= kOrder - k; ++i)
+    for (int i = 0; i <= degree - k; ++i)
       right[i] = 0.5 * (right[i] + right[i + 1]);
     left[k] = right[0];
   }
@@ -128,25 +139,27 @@ double firstBelow(const Series& c, int degree, double horizon, double floor)
     const double height = c[0] - floor, speed = degree >= 1 ? c[1] : 0.0, curvature = degree >= 2 ? 2.0 * c[2] : 0.0;
     return height <= 0.0 ? 0.0 : firstZero(height, speed, curvature);
   }
-  static const BernsteinTable table;
-  Series scaled;
+  Series scaled{};
   double power = 1.0, spread = 0.0;
-  for (int n = 0; n <= kOrder; ++n)
+  for (int n = 0; n <= degree; ++n)
   {
-    scaled[n] = n <= degree ? c[n] * power : 0.0;
+    scaled[n] = c[n] * power;
     if (n > 0)
       spread += std::abs(scaled[n]);
     power *= horizon;
   }
   if (scaled[0] - spread > floor)
     return kNever;
-  Series bernstein;
-  for (int i = 0; i <= kOrder; ++i)
+  // Orders that all together are less than the rounding of the sum.
+  constexpr double kUnseen = 0x1p-56;
+  double unseen = 0.0;
+  for (; degree > 0; --degree)
   {
-    bernstein[i] = 0.0;
-    for (int j = 0; j <= std::min(i, degree); ++j)
-      bernstein[i] += table.weight[i][j] * scaled[j];
+    unseen += std::abs(scaled[degree]);
+    if (unseen > kUnseen * (std::abs(scaled[0]) + spread))
+      break;
   }
+  const Series bernstein = bernsteinOf(scaled, degree);
   const double found = search(c, degree, floor, bernstein, 0.0, horizon, kHalvings);
   if (found > 0.0 || c[0] <= floor)
     return found;
