@@ -55,7 +55,7 @@ public:
       t.member_b = member_of[t.b];
       locate(t, bodies[t.a], a.frame, bodies[t.b], b.frame);
     }
-    flow_.expand(bodies, links, field, now, members, rests, works);
+    flow_.expand(bodies, links, field, now, kOrder, members, rests, works);
     ++arcs;
   }
 

@@ -144,6 +144,7 @@ private:
   void launch(const Time& time, const std::vector<int>& members);
   double leastForce(const Island& island) const;
   bool letGo(Island& island, const Time& time);
+  bool wereBrief(const Island& island, const Time& time) const;
   void move(Island& island, const Time& time);
   bool isStill(const Island& island) const;
   void sleep(Island& island);

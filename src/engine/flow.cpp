@@ -304,7 +304,7 @@ bool Flow::endsEarly() const
   return true;
 }
 
-void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Field& field, const Time& start,
+void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Field& field, const Time& start, int order,
                   const std::vector<Member>& members, std::vector<Rest>& rests, Works& works)
 {
   field_ = &field;
@@ -327,8 +327,8 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
   for (std::size_t i = 0; i < work_.size(); ++i)
     work_[i].rotating = members[i].omega != 0.0;
   placeRests(1);
-  int degree = kOrder;
-  for (int n = 0; n + 2 <= kOrder; ++n)
+  int degree = order;
+  for (int n = 0; n + 2 <= order; ++n)
   {
     freeAcceleration(n);
     if (m > 0)

@@ -52,8 +52,8 @@ class Flow
 {
 public:
   /// members: state of the island's bodies at start, all movable; rests: their active touches, linearly independent, member indices into
-  /// `members` or -1 for a fixed side. Writes the arcs of the bodies, the forces of the rests and the works.
-  void expand(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Field& field, const Time& start,
+  /// `members` or -1 for a fixed side; order: the highest of the arcs. Writes the arcs of the bodies, the forces of the rests and the works.
+  void expand(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Field& field, const Time& start, int order,
               const std::vector<Member>& members, std::vector<Rest>& rests, Works& works);
 
 private:

@@ -150,13 +150,13 @@ double firstBelow(const Series& c, int degree, double horizon, double floor)
   }
   if (scaled[0] - spread > floor)
     return kNever;
-  // Orders that all together are less than the rounding of the sum.
+  // Orders that all together are less than the rounding of the sum; none where they overflow.
   constexpr double kUnseen = 0x1p-56;
   double unseen = 0.0;
   for (; degree > 0; --degree)
   {
     unseen += std::abs(scaled[degree]);
-    if (unseen > kUnseen * (std::abs(scaled[0]) + spread))
+    if (!(unseen <= kUnseen * (std::abs(scaled[0]) + spread)))
       break;
   }
   const Series bernstein = bernsteinOf(scaled, degree);
