@@ -228,19 +228,23 @@ TEST(FirstBelow, InfiniteHorizonIsTheParabola)
   EXPECT_EQ(firstBelow({ 1.0, 1.0 }, 1, never, 1.0), 0.0);
 }
 
-// A turn of 1e-22 rad/s makes a horizon of 1e22 s, over which a speed of 1 m/s turns into all directions; the zero is 1e-6 s away.
+// A turn of 1e-22 rad/s makes a horizon of 1e22 s, over which a speed of 1 m/s turns into all directions; the zero is 1e-6 s away. The horizon's powers
+// overflow: of one of 1e13 s only the last one, on a term that is not zero.
 TEST(FirstBelow, RootFarNearerThanTheHorizon)
 {
-  Series g{};
-  double term = 1.0;
-  for (int n = 2; n <= kOrder; ++n)
+  for (const double turn : { 1e-22, 1e-13 })
   {
-    term *= 1e-22 / (n - 1);
-    g[n] = n % 4 < 2 ? -term : term;
+    Series g{};
+    double term = 1.0;
+    for (int n = 2; n <= kOrder; ++n)
+    {
+      term *= turn / (n - 1);
+      g[n] = n % 4 < 2 ? -term : term;
+    }
+    g[0] = 2.5e-7;
+    g[1] = -0.265;
+    EXPECT_NEAR(firstBelow(g, kOrder, 1.0 / turn, 0.0), 2.5e-7 / 0.265, 1e-20);
   }
-  g[0] = 2.5e-7;
-  g[1] = -0.265;
-  EXPECT_NEAR(firstBelow(g, kOrder, 1e22, 0.0), 2.5e-7 / 0.265, 1e-20);
 }
 
 TEST(FirstBelow, RootsPlacedByConstruction)

@@ -156,7 +156,7 @@ double firstBelow(const Series& c, int degree, double horizon, double floor)
   for (; degree > 0; --degree)
   {
     unseen += std::abs(scaled[degree]);
-    if (!(unseen <= kUnseen * (std::abs(scaled[0]) + spread)))
+    if (!(unseen < kUnseen * (std::abs(scaled[0]) + spread)))
       break;
   }
   const Series bernstein = bernsteinOf(scaled, degree);
