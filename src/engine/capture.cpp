@@ -167,12 +167,14 @@ double ContactGroup::holdActive()
 {
   prepare();
   start_ = velocities();
-  pressed_.clear();
-  others_.clear();
-  for (std::size_t i = 0; i < touches.size(); ++i)
+  stopped_.clear();
+  approaching_.clear();
+  for (int i = 0; i < static_cast<int>(touches.size()); ++i)
     if (touches[i].active)
-      pressed_.push_back(static_cast<int>(i));
-  carryOut();
+      stopped_.push_back(i);
+    else if (velocityOf(i) < -noise_)
+      approaching_.push_back(i);  // has an impact of its own to come, though the moves may have closed its gap
+  bringToRestWithNeighbours(stopped_, approaching_);
   clean();
   return lossSince(start_);
 }

@@ -101,7 +101,7 @@ private:
   bool atRest(const std::vector<int>& rows) const;
   void bringToRest(const std::vector<int>& rows);
   void projectOut(const std::vector<int>& rows);
-  void bringToRestWithNeighbours(std::vector<int>& rows);
+  void bringToRestWithNeighbours(std::vector<int>& rows, const std::vector<int>& but = {});
 
   void place(Member& member, const Vec2& shift, double turn);
 

@@ -157,15 +157,16 @@ void ContactGroup::projectOut(const std::vector<int>& rows)
   }
 }
 
-/// Brings the rows to rest, and with them whatever closed touch would approach then.
-void ContactGroup::bringToRestWithNeighbours(std::vector<int>& rows)
+/// Brings the rows to rest, and with them whatever closed touch would approach then, but for some.
+void ContactGroup::bringToRestWithNeighbours(std::vector<int>& rows, const std::vector<int>& but)
 {
+  const auto in = [](const std::vector<int>& list, int i) { return std::find(list.begin(), list.end(), i) != list.end(); };
   bringToRest(rows);
   for (;;)
   {
     const std::size_t count = rows.size();
     for (int i = 0; i < static_cast<int>(touches.size()); ++i)
-      if (touches[i].gap <= closed_ && velocityOf(i) < -noise_ && std::find(rows.begin(), rows.end(), i) == rows.end())
+      if (touches[i].gap <= closed_ && velocityOf(i) < -noise_ && !in(rows, i) && !in(but, i))
         rows.push_back(i);
     if (rows.size() == count)
       return;
