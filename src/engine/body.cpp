@@ -4,50 +4,41 @@ namespace block_world
 {
 namespace
 {
-/// Value, first and half the second derivative of x, y and the angle in one pass of Horner's scheme; x and y side by side.
-struct Horner
+/// Values, first derivatives and halves of the second ones in one pass of Horner's scheme; x and y side by side. What of it is not asked for is not
+/// computed, as this is inlined.
+inline Snapshot motion(const Arc& arc, const Time& time)
 {
+  const double s = arc.degree > 0 ? time - arc.start : 0.0;
   Vec2 place = Vec2::Zero(), rate = Vec2::Zero(), bend = Vec2::Zero();
   double angle = 0.0, spin = 0.0, twist = 0.0;
-
-  /// What of it is not asked for is not computed: this is inlined.
-  Horner(const Arc& arc, double s)
+  for (int n = arc.degree; n >= 0; --n)
   {
-    for (int n = arc.degree; n >= 0; --n)
-    {
-      bend = bend * s + rate;
-      twist = twist * s + spin;
-      rate = rate * s + place;
-      spin = spin * s + angle;
-      place = place * s + Vec2(arc.x[n], arc.y[n]);
-      angle = angle * s + arc.angle[n];
-    }
+    bend = bend * s + rate;
+    twist = twist * s + spin;
+    rate = rate * s + place;
+    spin = spin * s + angle;
+    place = place * s + Vec2(arc.x[n], arc.y[n]);
+    angle = angle * s + arc.angle[n];
   }
-};
+  Snapshot now;
+  now.position = place;
+  now.angle = angle;
+  now.velocity = rate;
+  now.omega = spin;
+  now.acceleration = 2.0 * bend;
+  now.alpha = 2.0 * twist;
+  return now;
+}
 }  // namespace
 
 Snapshot Body::at(const Time& time) const
 {
-  const Horner now(arc, arc.degree > 0 ? time - arc.start : 0.0);
-  Snapshot snapshot;
-  snapshot.position = now.place;
-  snapshot.angle = now.angle;
-  snapshot.velocity = now.rate;
-  snapshot.omega = now.spin;
-  snapshot.acceleration = 2.0 * now.bend;
-  snapshot.alpha = 2.0 * now.twist;
-  return snapshot;
+  return motion(arc, time);
 }
 
 MotionState Body::stateAt(const Time& time) const
 {
-  const Horner now(arc, arc.degree > 0 ? time - arc.start : 0.0);
-  MotionState state;
-  state.position = now.place;
-  state.angle = now.angle;
-  state.velocity = now.rate;
-  state.omega = now.spin;
-  return state;
+  return motion(arc, time);
 }
 
 }  // namespace block_world

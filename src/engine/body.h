@@ -25,11 +25,11 @@ struct alignas(kCacheLine) Arc
   Series x{}, y{}, angle{};
 };
 
-/// A body's motion at one instant.
-struct Snapshot
+/// A body's motion at one instant, with its accelerations.
+struct Snapshot : MotionState
 {
-  Vec2 position = Vec2::Zero(), velocity = Vec2::Zero(), acceleration = Vec2::Zero();
-  double angle = 0.0, omega = 0.0, alpha = 0.0;
+  Vec2 acceleration = Vec2::Zero();
+  double alpha = 0.0;
 };
 
 /// A zero-length spring held by the user: force -k d - c d', d from the anchor to the attachment.

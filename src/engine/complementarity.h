@@ -2,28 +2,13 @@
 
 #include <vector>
 
+#include "room.h"
+
 namespace block_world
 {
 /// Share of its diagonal below which a pivot says that its row depends on others: such rows carry nothing. Of rows that were independent in one order
 /// the pivots in another are smaller, but not by more than the second.
 constexpr double kDependent = 1e-11, kTrusted = 1e-14;
-
-/// Room for vectors that take so many entries, of which none grows by itself: the memory of all doubles at once and soon suffices for good.
-class Room
-{
-public:
-  template <class... Vector>
-  void provide(std::size_t entries, Vector&... vectors)
-  {
-    if (entries <= entries_)
-      return;
-    entries_ = 2 * entries;
-    (vectors.reserve(entries_), ...);
-  }
-
-private:
-  std::size_t entries_ = 0;
-};
 
 /// Cholesky factor of a growing symmetric positive definite matrix, row by row. Zeros at the beginning of a row stay zero in the factor and are
 /// skipped (skyline storage; George & Liu 1981, ch. 4): bodies that touch only their neighbours make narrow rows.

@@ -265,7 +265,6 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
 /// other, and not where so long a way has been gone by then that the gap is off by more than coordinates resolve.
 bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate)
 {
-  constexpr double kRounding = 2.220446049250313e-16;
   const Vec2 relative = b.now->velocity - a.now->velocity;
   const Side* last = nullptr;
   double span = 0.0;
@@ -289,7 +288,7 @@ bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon,
       opened = std::max(opened, side.gap + side.rate * span);
   if (opened > tolerance_)
     return true;
-  if (opened > -tolerance_ || kRounding * relative.norm() * span > resolution_)
+  if (opened > -tolerance_ || std::numeric_limits<double>::epsilon() * relative.norm() * span > resolution_)
     return false;
   pair.face_of_a = last->of_a;
   pair.face = last->face;

@@ -10,8 +10,8 @@ namespace block_world
 {
 namespace
 {
-/// Where events cut arcs off after less than this share of their horizon, as in heaps, half as many orders are good for as long: the horizon goes with
-/// eps^(1 / (order + 1)), and eps^(1/13 - 1/25) = 0.26.
+/// Where events cut arcs off after less than this share of their horizon, as in heaps, half as many orders are good for as long: the horizon goes
+/// with eps^(1 / (order + 1)), and eps^(1/13 - 1/25) = 0.26.
 constexpr double kBrief = 0.25;
 constexpr int kLowOrder = kOrder / 2;
 }  // namespace
@@ -120,8 +120,8 @@ double World::Engine::leastForce(const Island& island) const
   return -1e-12 * largest;
 }
 
-/// Lets the touch go that pulls most at the start of new arcs, if any does, or if none presses. The plan had it press, by less than the rounding of forces that depend on
-/// each other nearly, so that its force is zero; as an event it would come again at once, and again.
+/// Lets the touch go that pulls most at the start of new arcs, if any does, or if none presses. The plan had it press, by less than the rounding of
+/// forces that depend on each other nearly, so that its force is zero; as an event it would come again at once, and again.
 bool World::Engine::letGo(Island& island, const Time& time)
 {
   const auto least = std::min_element(island.rests.begin(), island.rests.end(), [](const Rest& p, const Rest& q) { return p.force[0] < q.force[0]; });
