@@ -111,13 +111,13 @@ void ContactGroup::bringToRest(const std::vector<int>& rows)
     projectOut(rows);
 }
 
-/// The same by an orthonormal basis Q of the columns M^-1/2 J', v - M^-1/2 Q Q' M^1/2 v: for touches that depend on each other nearly, as in a jam,
-/// where A = J M^-1 J' has squared the condition. This takes energy whatever rounding does to Q.
+/// The same by an orthonormal basis Q of the columns M^-1/2 J', each of length 1, v - M^-1/2 Q Q' M^1/2 v: for touches that depend on each other nearly,
+/// as in a jam, where A = J M^-1 J' has squared the condition. This takes energy whatever rounding does to Q.
 void ContactGroup::projectOut(const std::vector<int>& rows)
 {
   const int count = static_cast<int>(rows.size()), size = 3 * static_cast<int>(members.size());
   Eigen::MatrixXd columns = Eigen::MatrixXd::Zero(size, count);
-  Eigen::VectorXd weight(size), velocity = Eigen::VectorXd::Zero(size);
+  Eigen::VectorXd weight(size), norm(count), velocity = Eigen::VectorXd::Zero(size);
   for (std::size_t i = 0; i < members.size(); ++i)
   {
     const Member& m = members[i];
@@ -132,9 +132,11 @@ void ContactGroup::projectOut(const std::vector<int>& rows)
     columns.block<3, 1>(3 * t.member_a, k) += Eigen::Vector3d(t.normal.x(), t.normal.y(), cross(t.arm, t.normal));
     columns.block<3, 1>(3 * t.member_b, k) -= Eigen::Vector3d(t.normal.x(), t.normal.y(), cross(t.reach, t.normal));
     columns.col(k).array() *= weight.array();
+    norm[k] = columns.col(k).norm();
+    columns.col(k) /= norm[k];
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(std::sqrt(kDependent));
+  qr.setThreshold(std::sqrt(kTrusted));
   const int rank = static_cast<int>(qr.rank());
   Eigen::VectorXd along = qr.householderQ().transpose() * velocity;
   // Impulses that almost cancel say nothing: the columns that the others nearly give get none.
@@ -143,7 +145,10 @@ void ContactGroup::projectOut(const std::vector<int>& rows)
     --told;
   const Eigen::VectorXd impulses = -qr.matrixR().topLeftCorner(told, told).triangularView<Eigen::Upper>().solve(along.head(told));
   for (int k = 0; k < told; ++k)
-    touches[rows[qr.colsPermutation().indices()[k]]].capture += impulses[k];
+  {
+    const int which = qr.colsPermutation().indices()[k];
+    touches[rows[which]].capture += impulses[k] / norm[which];
+  }
 
   along.tail(size - rank).setZero();
   const Eigen::VectorXd change = -weight.cwiseProduct(qr.householderQ() * along);
