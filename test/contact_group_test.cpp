@@ -296,7 +296,7 @@ TEST(ContactGroup, SettlingClosesGaps)
   ASSERT_EQ(group.touches.size(), 2u);
   for (Touch& t : group.touches)
     t.active = true;
-  EXPECT_NEAR(group.settlePositions(1e-14), 3.5e-7, 1e-12);
+  EXPECT_NEAR(group.settlePositions(1e-14).gap, 3.5e-7, 1e-12);
   EXPECT_NEAR(group.members[1].frame.position.y(), 0.25, 1e-13);  // the square of the turn
   EXPECT_NEAR(group.members[1].angle, 0.0, 1e-13);
   EXPECT_EQ(group.members[0].frame.position, Vec2(0.0, 0.0));
@@ -324,7 +324,7 @@ TEST(ContactGroup, OnlyWhatIsDeepIsLifted)
   for (const double gap : { 2e-7, -2e-7 })
   {
     ContactGroup group = boxOnFloor(0.0, 0.5, 9.81, gap);
-    EXPECT_NEAR(group.settlePositions(1e-14), gap < 0.0 ? -gap : 0.0, 1e-15);
+    EXPECT_NEAR(group.settlePositions(1e-14).gap, gap < 0.0 ? -gap : 0.0, 1e-15);
     EXPECT_NEAR(group.members[1].frame.position.y(), 0.25 + std::max(gap, 0.0), 1e-15);
   }
 }

@@ -68,7 +68,7 @@ double World::Engine::storedOnMove() const
       return { point, point };
     const int k = member_of_[body];
     if (k >= 0)
-      return { before_[k].toWorld(point), group_.members[k].frame.toWorld(point) };
+      return { before_[k].frame.toWorld(point), group_.members[k].frame.toWorld(point) };
     const Arc& still = bodies[body].arc;  // a fixed one
     const Vec2 there = Frame(Vec2(still.x[0], still.y[0]), still.angle[0]).toWorld(point);
     return { there, there };
@@ -84,7 +84,7 @@ double World::Engine::storedOnMove() const
     const Body& body = bodies[m.body];
     if (body.fixed)
       continue;
-    sum += body.mass * field_.gravity * (m.frame.position.y() - before_[k].position.y());
+    sum += body.mass * field_.gravity * (m.frame.position.y() - before_[k].frame.position.y());
     if (body.mouse.active)
       sum += gain(body.mouse.stiffness, 0.0, ends(m.body, body.mouse.attach), ends(-1, body.mouse.anchor));
     for (int index : body.springs)

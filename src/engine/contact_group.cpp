@@ -287,36 +287,53 @@ bool ContactGroup::struck() const
   return std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.impulse != 0.0 || t.capture != 0.0; });
 }
 
-double ContactGroup::settlePositions(double resolution)
+bool ContactGroup::isDeep(const Touch& t, double resolution) const
+{
+  return std::max(t.gap, t.separation) < -resolution;
+}
+
+double ContactGroup::misfit(double resolution) const
+{
+  double sum = 0.0;
+  for (const Touch& t : touches)
+    if (!t.corner && (t.active || isDeep(t, resolution)))
+      sum += t.gap * t.gap;
+  return sum;
+}
+
+ContactGroup::Moves ContactGroup::settlePositions(double resolution)
 {
   // min |dq| in the mass metric with gap + J dq = 0. A gap that takes far larger moves to close, on a short lever, stays as it is.
   constexpr double kShortLever = 1e-6;  // square of the share of the others' lengths
   pressed_.clear();
   for (std::size_t i = 0; i < touches.size(); ++i)
-  {
-    const Touch& t = touches[i];
-    if (!t.corner && (t.active || std::max(t.gap, t.separation) < -resolution))
+    if (!touches[i].corner && (touches[i].active || isDeep(touches[i], resolution)))
       pressed_.push_back(static_cast<int>(i));
-  }
   const auto open = [&](int i) { return touches[i].gap != 0.0; };
   if (std::none_of(pressed_.begin(), pressed_.end(), open))
-    return 0.0;
+    return {};
   independent(pressed_, kShortLever);
   pressed_ = independent_;
-  double lowest = 0.0;
   solution_.resize(pressed_.size());
+  Moves moves;
   for (std::size_t k = 0; k < pressed_.size(); ++k)
   {
-    lowest = std::max(lowest, std::abs(touches[pressed_[k]].gap));
+    moves.gap = std::max(moves.gap, std::abs(touches[pressed_[k]].gap));
     solution_[k] = -touches[pressed_[k]].gap;
   }
   factor_.solve(solution_.data());
 
   sumChanges(pressed_, solution_, changes_);
   for (std::size_t m = 0; m < members.size(); ++m)
-    if (members[m].inverse_mass > 0.0)
-      place(members[m], changes_[m].velocity, changes_[m].omega);
-  return lowest;
+  {
+    if (members[m].inverse_mass == 0.0)
+      continue;
+    const Vec2& shift = changes_[m].velocity;
+    const double turn = changes_[m].omega;
+    place(members[m], shift, turn);
+    moves.farthest = std::max(moves.farthest, shift.norm() + std::abs(turn) * std::sqrt(members[m].inverse_mass / members[m].inverse_inertia));
+  }
+  return moves;
 }
 
 }  // namespace block_world

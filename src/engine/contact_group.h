@@ -46,9 +46,16 @@ public:
   /// Whether the last collide pushed anything.
   bool struck() const;
 
-  /// Moves the members as little as possible (mass metric) so that the gaps of the active touches, and those deeper than the resolution,
-  /// vanish. Returns the largest gap closed.
-  double settlePositions(double resolution);
+  struct Moves
+  {
+    double gap = 0.0;       ///< m, the largest that is closed
+    double farthest = 0.0;  ///< m, the longest move: the centre's shift and the turn at the radius of gyration
+  };
+  /// Moves the members as little as possible (mass metric) so that the gaps of the active touches, and those deeper than the resolution, vanish.
+  Moves settlePositions(double resolution);
+
+  /// m^2, what settlePositions is to take away: the sum of the squares of those gaps.
+  double misfit(double resolution) const;
 
   /// After settlePositions and with the new geometry: the active touches neither approach nor open. Returns the energy lost.
   double holdActive();
@@ -103,6 +110,7 @@ private:
   void projectOut(const std::vector<int>& rows);
   void bringToRestWithNeighbours(std::vector<int>& rows, const std::vector<int>& but = {});
 
+  bool isDeep(const Touch& touch, double resolution) const;
   void place(Member& member, const Vec2& shift, double turn);
 
   Room rows_room_, members_room_;

@@ -132,7 +132,8 @@ private:
   void findTouches(const Time& time, int round);
   void report(const Time& time, bool last);  // report.cpp, as is tell
   void tell(const Touch& touch, ContactKind kind, double impulse, const Time& time);
-  void settle();
+  void locateTouches();
+  void settle(double paid);
   void fetch(int body) const;
   void fetchShape(int body) const;
   const Snapshot& snapshot(int body, const Time& time);
@@ -219,7 +220,7 @@ private:
   int mark_ = 0;
   std::vector<Rest> former_rests_;
   std::vector<Member> island_state_;
-  std::vector<Frame> before_;  ///< of the group's members, before they are moved
+  std::vector<Member> before_;  ///< the group's, before they are moved
   bool velocity_decided_ = false;
   CostKind kind_ = CostKind::Command;  ///< what is being done
 };

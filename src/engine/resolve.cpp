@@ -240,6 +240,7 @@ void World::Engine::resolve(const Time& time)
   scales.guard = detector_.guard();
   scales.dissipative = dissipative_;
   former_rests_.clear();
+  const double lost_before = impact_loss_;
   // Corner on corner is decided by the velocities: look again with the new ones.
   for (int round = 0;; ++round)
   {
@@ -272,7 +273,7 @@ void World::Engine::resolve(const Time& time)
     if (!again)
       break;
   }
-  settle();
+  settle(impact_loss_ - lost_before);
   for (const Member& m : group_.members)
     if (!bodies[m.body].fixed && bodies[m.body].island == m.body)
       closeWorks(m.body, time);
@@ -286,27 +287,46 @@ void World::Engine::resolve(const Time& time)
   kind_ = cause;
 }
 
-/// Gaps of the touches that carry force become exactly zero, and so do their rates. What the moves take from the stored energy the impact has lost.
-void World::Engine::settle()
+/// The touches where the members are now.
+void World::Engine::locateTouches()
 {
-  for (int pass = 0; pass < 8; ++pass)
+  for (Touch& t : group_.touches)
   {
-    before_.clear();
-    for (const Member& m : group_.members)
-      before_.push_back(m.frame);
-    const double moved = group_.settlePositions(2.0 * detector_.guard());
-    if (moved == 0.0)
-      return;
-    impact_loss_ -= storedOnMove();
-    for (Touch& t : group_.touches)
+    const double before = t.gap;
+    locate(t, bodies[t.a], group_.members[t.member_a].frame, bodies[t.b], group_.members[t.member_b].frame);
+    t.separation += t.gap - before;
+  }
+}
+
+/// Gaps of the touches that carry force become exactly zero, and so do their rates. What the moves take from the stored energy the impact has lost.
+///
+/// Moves that do not lessen the gaps are taken back: where there is no room for all, as in a jam, they only push one into another. So are moves that
+/// lift by more than the gaps, if the impact has not lost as much (paid): what sinks by the guard and is lifted again gains nothing, but on a short
+/// lever what rounding sinks would be lifted by a thousand times as much.
+void World::Engine::settle(double paid)
+{
+  const double deep = 2.0 * detector_.guard(), rounding = 8.0 * resolution_;
+  double misfit = group_.misfit(deep);
+  for (int pass = 0; pass < 8 && misfit > 0.0; ++pass)
+  {
+    before_ = group_.members;
+    const ContactGroup::Moves moves = group_.settlePositions(deep);
+    locateTouches();
+    const double left = group_.misfit(deep), gain = storedOnMove();
+    if (left >= misfit || gain * (1.0 - (rounding + moves.gap) / moves.farthest) > paid)
     {
-      const double before = t.gap;
-      locate(t, bodies[t.a], group_.members[t.member_a].frame, bodies[t.b], group_.members[t.member_b].frame);
-      t.separation += t.gap - before;
-    }
-    if (moved <= 8.0 * resolution_)
+      group_.members = before_;
+      locateTouches();
       return;
-    impact_loss_ += group_.holdActive();
+    }
+    misfit = left;
+    paid -= gain;
+    impact_loss_ -= gain;
+    if (moves.gap <= rounding)
+      return;
+    const double loss = group_.holdActive();
+    paid += loss;
+    impact_loss_ += loss;
   }
 }
 
