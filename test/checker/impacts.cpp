@@ -167,10 +167,15 @@ void Replay::checkSigns(const std::vector<const ContactRow*>& events)
   const bool captures = std::any_of(events.begin(), events.end(), [&](const ContactRow* row) {
     return row->kind != Kind::Impact || std::binary_search(rest_pairs_.begin(), rest_pairs_.end(), pairOf(*row));
   });
-  for (const ContactRow* row : events)
-    checks_.sign.add(std::max(0.0, -row->impulse),
-                     captures && row->impulse < 0.0 ? std::max(relative_error, captureImpulse()) : relative_error,
-                     row->time, row->a, row->b);
+  const ContactRow& least = **std::min_element(
+      events.begin(), events.end(), [](const ContactRow* p, const ContactRow* q) { return p->impulse < q->impulse; });
+  if (captures && least.impulse < 0.0)
+  {
+    const double most = std::max(relative_error, captureImpulse());
+    checks_.sign.add(pull(events, most), most, least.time, least.a, least.b);
+  }
+  else
+    checks_.sign.add(std::max(0.0, -least.impulse), relative_error, least.time, least.a, least.b);
 }
 
 // All movable mass at the speed of a bounce that the tolerance cannot tell from rest.

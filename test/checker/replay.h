@@ -81,6 +81,7 @@ private:
   // impacts.cpp: what happens at one time
   void strike(RowRange rows);
   void checkSigns(const std::vector<const ContactRow*>& events);
+  double pull(const std::vector<const ContactRow*>& events, double enough) const;
   void strikeGroup(const std::vector<const ContactRow*>& group);
   void push(const ContactRow& row);
   void loseIsland(int body);
