@@ -107,8 +107,7 @@ bool ContactGroup::anyElastic(const std::vector<int>& rows) const
 /// One stage of reflection (Smith et al. 2012, with the elasticity in every stage): l minimises the kinetic energy after an inelastic impact of the
 /// approaching touches; the impulse is (1 + e) l. For one touch this is equation (11).
 ///
-/// With c = M^-1 J'l the velocities v end at v + c inelastically, at v + c + z with z = M^-1 J'E l elastically. No rounding of l adds energy: c is made
-/// orthogonal to v + c in the mass metric, and z not longer than keeps the energy.
+/// With c = M^-1 J'l the velocities v end at v + c inelastically, at v + c + z with z = M^-1 J'E l elastically, z not longer than keeps the energy.
 void ContactGroup::reflect(const std::vector<int>& rows)
 {
   b_.clear();
@@ -116,10 +115,10 @@ void ContactGroup::reflect(const std::vector<int>& rows)
     b_.push_back(velocityOf(i));
   solver_.solve(gram_, rows, b_);
   impulses_ = solver_.value();
-  const double share = shareOfProjection(rows), rebound = shareOfRebound(rows, share);
+  const double rebound = shareOfRebound(rows);
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
-    const double impulse = share * (1.0 + rebound * touches[rows[k]].elasticity) * impulses_[k];
+    const double impulse = (1.0 + rebound * touches[rows[k]].elasticity) * impulses_[k];
     if (impulse == 0.0)
       continue;
     touches[rows[k]].impulse += impulse;
@@ -127,28 +126,19 @@ void ContactGroup::reflect(const std::vector<int>& rows)
   }
 }
 
-/// s with (v + s c).M c = 0: 1 but for rounding, which large impulses that all but cancel can make large. Of several rows c is left in changes_.
-double ContactGroup::shareOfProjection(const std::vector<int>& rows)
-{
-  if (rows.size() == 1)
-    return 1.0;
-  sumChanges(rows, impulses_, changes_);
-  const double square = product(changes_, changes_), share = square > 0.0 ? -product(velocities(), changes_) / square : 1.0;
-  return std::abs(share - 1.0) > 1e-12 ? std::max(0.0, share) : 1.0;
-}
-
 /// s <= 1 with |v + c + s z| <= |v| in the mass metric; 1 but where different elasticities meet.
-double ContactGroup::shareOfRebound(const std::vector<int>& rows, double projection)
+double ContactGroup::shareOfRebound(const std::vector<int>& rows)
 {
   const double e = touches[rows.front()].elasticity;
   if (std::all_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity == e; }))
     return 1.0;
   row_.clear();
   for (std::size_t k = 0; k < rows.size(); ++k)
-    row_.push_back(projection * touches[rows[k]].elasticity * impulses_[k]);
+    row_.push_back(touches[rows[k]].elasticity * impulses_[k]);
+  sumChanges(rows, impulses_, changes_);
   sumChanges(rows, row_, rebound_);
-  const double square = product(rebound_, rebound_), given = projection * projection * product(changes_, changes_),
-               along = product(velocities(), rebound_) + projection * product(changes_, rebound_);
+  const double square = product(rebound_, rebound_), given = product(changes_, changes_),
+               along = product(velocities(), rebound_) + product(changes_, rebound_);
   return square > 0.0 ? std::min(1.0, (std::sqrt(along * along + square * given) - along) / square) : 1.0;
 }
 

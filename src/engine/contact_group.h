@@ -78,8 +78,7 @@ private:
   void scale(const ContactScales& scales);
   void findSimultaneous();
   void reflect(const std::vector<int>& rows);
-  double shareOfProjection(const std::vector<int>& rows);
-  double shareOfRebound(const std::vector<int>& rows, double projection);
+  double shareOfRebound(const std::vector<int>& rows);
   void stop();
   void clean();
   bool allLeave() const;
@@ -104,7 +103,6 @@ private:
   double product(const std::vector<Twist>& p, const std::vector<Twist>& q) const;
   const std::vector<Twist>& velocities();
   double lossSince(const std::vector<Twist>& start);
-  bool takesEnergy();
   bool atRest(const std::vector<int>& rows) const;
   void bringToRest(const std::vector<int>& rows);
   void projectOut(const std::vector<int>& rows);

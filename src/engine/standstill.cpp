@@ -45,15 +45,6 @@ const std::vector<ContactGroup::Twist>& ContactGroup::velocities()
   return velocities_;
 }
 
-/// Whether the changes, which should be a projection's with v.M dv = -dv.M dv, take energy at all.
-bool ContactGroup::takesEnergy()
-{
-  constexpr double kRounding = 64 * 2.220446049250313e-16;
-  const std::vector<Twist>& v = velocities();
-  const double square = product(changes_, changes_);
-  return product(v, changes_) <= -0.5 * square + kRounding * std::sqrt(square * product(v, v));
-}
-
 bool ContactGroup::atRest(const std::vector<int>& rows) const
 {
   return std::all_of(rows.begin(), rows.end(), [&](int i) { return std::abs(velocityOf(i)) <= noise_; });
@@ -98,9 +89,6 @@ void ContactGroup::bringToRest(const std::vector<int>& rows)
     for (std::size_t k = 0; k < independent_.size(); ++k)
       solution_[k] = -velocityOf(independent_[k]);
     factor_.solve(solution_.data());
-    sumChanges(independent_, solution_, changes_);
-    if (!takesEnergy())
-      break;
     for (std::size_t k = 0; k < independent_.size(); ++k)
     {
       push(independent_[k], solution_[k]);
