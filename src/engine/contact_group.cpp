@@ -111,9 +111,13 @@ bool ContactGroup::anyElastic(const std::vector<int>& rows) const
 void ContactGroup::reflect(const std::vector<int>& rows)
 {
   b_.clear();
+  guess_.clear();
   for (int i : rows)
+  {
+    guess_.push_back(static_cast<int>(b_.size()));
     b_.push_back(velocityOf(i));
-  solver_.solve(gram_, rows, b_);
+  }
+  solver_.solve(gram_, rows, b_, guess_);
   impulses_ = solver_.value();
   const double rebound = shareOfRebound(rows);
   for (std::size_t k = 0; k < rows.size(); ++k)
