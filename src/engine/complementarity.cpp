@@ -43,6 +43,7 @@ bool Cholesky::append(const double* entries, double share)
     lower_.resize((2 * n + 16) * (2 * n + 17) / 2);
     first_.resize(2 * n + 16);
     z_.reserve(2 * n + 16);
+    doubtful_.reserve(2 * n + 16);
   }
   double* l = lower_.data() + n * (n + 1) / 2;
   int start = 0;
@@ -59,8 +60,11 @@ bool Cholesky::append(const double* entries, double share)
     l[j] = rest / other[j];
     pivot -= l[j] * l[j];
   }
-  if (!(pivot > share * std::max(entries[n], pivot < kDoubtful * entries[n] ? heaviest(l) : 0.0)))
+  const bool doubtful = pivot < kDoubtful * entries[n];
+  if (!(pivot > share * std::max(entries[n], doubtful ? heaviest(l) : 0.0)))
     return false;
+  if (doubtful)
+    doubtful_.push_back(n);
   l[n] = std::sqrt(pivot);
   first_[n] = start;
   ++size_;
@@ -135,6 +139,8 @@ void Complementarity::solvePassive(std::vector<double>& x)
   for (std::size_t k = 0; k < n; ++k)
     x[k] = -(*b_)[passive_[k]];
   factor_.solve(x.data());
+  if (!factor_.doubtful())
+    return;
   residual_.resize(n);
   for (std::size_t k = 0; k < n; ++k)
   {

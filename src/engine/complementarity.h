@@ -17,7 +17,7 @@ class Cholesky
 public:
   void clear()
   {
-    size_ = 0;
+    truncate(0);
   }
   int size() const
   {
@@ -30,6 +30,13 @@ public:
   void truncate(int size)
   {
     size_ = size;
+    while (!doubtful_.empty() && doubtful_.back() >= size)
+      doubtful_.pop_back();
+  }
+  /// Whether some row depends on the former ones so nearly that digits of x are lost.
+  bool doubtful() const
+  {
+    return !doubtful_.empty();
   }
   /// x = (L L^T)^-1 x.
   void solve(double* x) const;
@@ -45,6 +52,7 @@ private:
   std::vector<double> lower_;  ///< rows of the lower triangle, one after the other
   std::vector<double> z_;
   std::vector<int> first_;     ///< by row: its first entry that is not zero
+  std::vector<int> doubtful_;  ///< rows with small pivots
 };
 
 /// Dense symmetric matrix that keeps its memory.
