@@ -66,7 +66,7 @@ void ContactGroup::solvePlan()
   b_.clear();
   for (int i : plan_)
     b_.push_back(velocityOf(i));
-  solver_.solveHeld(gram_, plan_, b_, held, noise_);
+  solver_.solveHeld(gram_, plan_, b_, factor_, noise_);
   holds_.assign(solver_.value().begin(), solver_.value().begin() + held);
   pushes_.assign(solver_.value().begin() + held, solver_.value().end());
 }

@@ -35,16 +35,31 @@ double Cholesky::heaviest(const double* l)
   return most;
 }
 
+/// Memory for so many rows.
+void Cholesky::provide(int size)
+{
+  if (first_.size() >= static_cast<std::size_t>(size))
+    return;
+  const std::size_t most = 2 * size + 14;
+  lower_.resize(most * (most + 1) / 2);
+  first_.resize(most);
+  z_.reserve(most);
+  doubtful_.reserve(most);
+}
+
+void Cholesky::copy(const Cholesky& other)
+{
+  provide(other.size_);
+  size_ = other.size_;
+  std::copy_n(other.lower_.begin(), size_ * (size_ + 1) / 2, lower_.begin());
+  std::copy_n(other.first_.begin(), size_, first_.begin());
+  doubtful_ = other.doubtful_;
+}
+
 bool Cholesky::append(const double* entries, double share)
 {
   const int n = size_;
-  if (lower_.size() < static_cast<std::size_t>((n + 1) * (n + 2) / 2))
-  {
-    lower_.resize((2 * n + 16) * (2 * n + 17) / 2);
-    first_.resize(2 * n + 16);
-    z_.reserve(2 * n + 16);
-    doubtful_.reserve(2 * n + 16);
-  }
+  provide(n + 1);
   double* l = lower_.data() + n * (n + 1) / 2;
   int start = 0;
   while (start < n && entries[start] == 0.0)
@@ -284,18 +299,16 @@ void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& ro
   search(0.0);
 }
 
-void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, int held, double noise)
+void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Cholesky& held, double noise)
 {
   start(a, rows, b);
-  for (int i = 0; i < held; ++i)
-    if (rowOf(static_cast<int>(passive_.size()), i))
-    {
-      passive_.push_back(i);
-      state_[i] = 1;
-    }
-    else
-      state_[i] = 2;
-  held_ = static_cast<int>(passive_.size());
+  factor_.copy(held);
+  held_ = held.size();
+  for (int i = 0; i < held_; ++i)
+  {
+    passive_.push_back(i);
+    state_[i] = 1;
+  }
   settle();
   search(noise);
 }

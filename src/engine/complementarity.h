@@ -26,6 +26,8 @@ public:
   /// Appends row[0..size()] (the last is the diagonal). Refuses, returning false, a row that depends on the former ones: one whose pivot falls
   /// below that share of its diagonal, or that would magnify rounding by more than its inverse in the loads of former ones.
   bool append(const double* row, double share = kDependent);
+  /// Takes the rows of another one.
+  void copy(const Cholesky& other);
   /// Keeps the first rows only.
   void truncate(int size)
   {
@@ -42,6 +44,7 @@ public:
   void solve(double* x) const;
 
 private:
+  void provide(int size);
   double heaviest(const double* l);
   const double* row(int i) const
   {
@@ -102,9 +105,9 @@ public:
   /// The same; guess: positions within rows that may carry load, from which the search starts.
   void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& guess);
 
-  /// The first rows, `held` of them and independent, are equations instead: (A l + b)_i = 0 with l_i of any sign. What is above -noise does not
-  /// count as negative.
-  void solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, int held, double noise);
+  /// The first rows, those of the factor `held`, are equations instead: (A l + b)_i = 0 with l_i of any sign. What is above -noise does not count as
+  /// negative.
+  void solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Cholesky& held, double noise);
 
   /// l, one value per row of the last solve.
   const std::vector<double>& value() const
