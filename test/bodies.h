@@ -42,9 +42,9 @@ inline void launch(Body& body, const Vec2& position, double angle = 0.0, const V
 {
   body.arc = Arc();
   body.arc.degree = 2;
-  body.arc.x = Series{ position.x(), velocity.x(), acceleration.x() / 2.0 };
-  body.arc.y = Series{ position.y(), velocity.y(), acceleration.y() / 2.0 };
-  body.arc.angle = Series{ angle, omega, alpha / 2.0 };
+  body.arc.order[0] = { position.x(), position.y(), angle };
+  body.arc.order[1] = { velocity.x(), velocity.y(), omega };
+  body.arc.order[2] = { acceleration.x() / 2.0, acceleration.y() / 2.0, alpha / 2.0 };
 }
 
 inline Body block(const std::vector<Vec2>& vertices, double mass, double elasticity = 1.0)

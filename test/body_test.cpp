@@ -25,8 +25,8 @@ TEST(Body, ParabolaByHand)
 TEST(Body, FixedBodyStaysAtAnyTime)
 {
   Body body;
-  body.arc.x[0] = 3.0;
-  body.arc.angle[0] = -1.0;
+  body.arc.order[0].x = 3.0;
+  body.arc.order[0].angle = -1.0;
   for (const Time& time : { Time(), Time::fromSeconds(1e12), Time::infinity() })
   {
     const Snapshot now = body.at(time);
@@ -49,9 +49,9 @@ TEST(Body, EveryDegreeAgainstPowers)
       c[n] = c[n - 1] * (degree + 1 - n) / n;
     for (int n = 0; n <= degree; ++n)
     {
-      body.arc.x[n] = c[n];
-      body.arc.y[n] = -2.0 * c[n];
-      body.arc.angle[n] = 3.0 * c[n];
+      body.arc.order[n].x = c[n];
+      body.arc.order[n].y = -2.0 * c[n];
+      body.arc.order[n].angle = 3.0 * c[n];
     }
     body.arc.degree = degree;
     body.arc.start = Time::fromSeconds(5.0);

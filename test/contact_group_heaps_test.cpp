@@ -121,7 +121,7 @@ TEST(ContactGroupHeaps, ElasticHeapsKeepTheirEnergy)
   {
     std::vector<Body> bodies = heap(random, false, 1.0);
     for (Body& body : bodies)  // weightless: nothing is captured, and a free heap can always fly apart
-      body.arc.y[2] = 0.0;
+      body.arc.order[2].y = 0.0;
     ContactGroup group = groupOf(bodies);
     const double before = kineticEnergy(group.members);
     group.collide(ContactScales());

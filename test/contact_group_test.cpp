@@ -123,7 +123,7 @@ TEST(ContactGroup, HitsOfOtherPairsWaitForTheirOwnTime)
 {
   // The third block stands .3 of a tolerance apart: within the shell, but not yet struck.
   std::vector<Body> bodies = cradle({ 1.0, 2.0, 1.0 }, { 3.0, 0.0, 0.0 }, 1.0);
-  bodies[2].arc.x[0] += 3e-7;
+  bodies[2].arc.order[0].x += 3e-7;
   ContactGroup group = groupOf(bodies);
   ASSERT_EQ(group.touches.size(), 4u);
   group.collide(ContactScales());

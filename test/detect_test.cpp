@@ -93,11 +93,11 @@ void wobble(Random& random, Body& body, double horizon)
   arc.end = arc.start + horizon;
   for (int n = 3; n <= 6; ++n)
   {
-    arc.x[n] = random.in(-1.0, 1.0);
-    arc.y[n] = random.in(-1.0, 1.0);
-    arc.angle[n] = random.in(-1.0, 1.0);
-    arc.jerk += n * (n - 1) * (n - 2) * std::pow(horizon, n - 3) * std::hypot(arc.x[n], arc.y[n]);
-    arc.angular_jerk += n * (n - 1) * (n - 2) * std::pow(horizon, n - 3) * std::abs(arc.angle[n]);
+    arc.order[n].x = random.in(-1.0, 1.0);
+    arc.order[n].y = random.in(-1.0, 1.0);
+    arc.order[n].angle = random.in(-1.0, 1.0);
+    arc.jerk += n * (n - 1) * (n - 2) * std::pow(horizon, n - 3) * std::hypot(arc.order[n].x, arc.order[n].y);
+    arc.angular_jerk += n * (n - 1) * (n - 2) * std::pow(horizon, n - 3) * std::abs(arc.order[n].angle);
   }
 }
 

@@ -19,9 +19,9 @@ TEST(Flow, FreeFlightIsTheParabola)
   EXPECT_EQ(arc.degree, 2);
   EXPECT_TRUE(std::isinf(arc.horizon));
   EXPECT_TRUE(arc.end.isInfinite());
-  EXPECT_EQ(arc.x, (Series{ 1.0, 3.0 }));
-  EXPECT_EQ(arc.y, (Series{ 2.0, 4.0, -9.81 / 2.0 }));
-  EXPECT_EQ(arc.angle, (Series{ 0.5, 5.0 }));
+  EXPECT_EQ(arc.series(&Coefficients::x), (Series{ 1.0, 3.0 }));
+  EXPECT_EQ(arc.series(&Coefficients::y), (Series{ 2.0, 4.0, -9.81 / 2.0 }));
+  EXPECT_EQ(arc.series(&Coefficients::angle), (Series{ 0.5, 5.0 }));
   EXPECT_EQ(arc.jerk, 0.0);
   EXPECT_EQ(arc.angular_jerk, 0.0);
 }
@@ -132,9 +132,9 @@ TEST(Flow, SpringWithLengthAndDamperAgainstRungeKutta)
     run.bodies = { block(rectangle(1.0, 0.5), 2.0), block(rectangle(1.0, 1.0), 1.0) };
     launch(run.bodies[0], Vec2(1.0, 2.0), 0.5, Vec2(1.0, 0.0), -2.0);
     run.bodies[1].fixed = true;
-    run.bodies[1].arc.x[0] = anchor.x();
-    run.bodies[1].arc.y[0] = anchor.y() - 0.25;
-    run.bodies[1].arc.angle[0] = pi / 2.0;
+    run.bodies[1].arc.order[0].x = anchor.x();
+    run.bodies[1].arc.order[0].y = anchor.y() - 0.25;
+    run.bodies[1].arc.order[0].angle = pi / 2.0;
     run.links = { anchored_first ? SpringLink{ 1, 0, Vec2(0.25, 0.0), attach, 40.0, 1.2, 0.9 } :
                                    SpringLink{ 0, -1, attach, anchor, 40.0, 1.2, 0.9 } };
     run.bodies[0].springs = { 0 };
@@ -207,7 +207,7 @@ TEST(Flow, LadderFollowsItsEquation)
   ASSERT_EQ(run.rests.size(), 2u);
   const double m = 3.0, moment = ladder.inertia + m * l * l;
   run.expand();
-  EXPECT_NEAR(2.0 * run.bodies[2].arc.angle[2], m * 9.81 * l * std::cos(q) / moment, 1e-13);
+  EXPECT_NEAR(2.0 * run.bodies[2].arc.order[2].angle, m * 9.81 * l * std::cos(q) / moment, 1e-13);
   // At the start x'' = -l sin q q'' > 0 and y'' = l cos q q'' < 0 are what the wall and the floor leave of the forces.
   const double turn = -m * 9.81 * l * std::cos(q) / moment;
   for (const Rest& rest : run.rests)

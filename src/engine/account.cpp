@@ -19,6 +19,8 @@ Frame frameAt(const Body& body, const Time& time)
 void World::Engine::closeWorks(int island, const Time& time)
 {
   const Works& works = islands_[island].works;
+  if (works.degree == 0)
+    return;
   const double span = time - bodies[island].arc.start;
   thrust_work_ += evaluate(works.thrust, works.degree, span);
   damping_loss_ += evaluate(works.loss, works.degree, span);
@@ -40,14 +42,10 @@ void World::Engine::putAt(int body, const MotionState& state, const Time& time)
   Arc arc;
   arc.start = time;
   arc.degree = 1;
-  arc.x[0] = state.position.x();
-  arc.y[0] = state.position.y();
-  arc.angle[0] = state.angle;
-  arc.x[1] = state.velocity.x();
-  arc.y[1] = state.velocity.y();
-  arc.angle[1] = state.omega;
+  arc.order[0] = { state.position.x(), state.position.y(), state.angle };
+  arc.order[1] = { state.velocity.x(), state.velocity.y(), state.omega };
   bodies[body].arc = arc;
-  cache_[body].time = Time::infinity();
+  forget(body);
 }
 
 double World::Engine::springEnergy(const SpringLink& link, const Time& time) const
@@ -70,7 +68,7 @@ double World::Engine::storedOnMove() const
     if (k >= 0)
       return { before_[k].frame.toWorld(point), group_.members[k].frame.toWorld(point) };
     const Arc& still = bodies[body].arc;  // a fixed one
-    const Vec2 there = Frame(Vec2(still.x[0], still.y[0]), still.angle[0]).toWorld(point);
+    const Vec2 there = Frame(still.order[0].place(), still.order[0].angle).toWorld(point);
     return { there, there };
   };
   const auto gain = [&](double stiffness, double rest_length, const std::pair<Vec2, Vec2>& from, const std::pair<Vec2, Vec2>& to) {

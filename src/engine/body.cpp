@@ -17,8 +17,8 @@ inline Snapshot motion(const Arc& arc, const Time& time)
     twist = twist * s + spin;
     rate = rate * s + place;
     spin = spin * s + angle;
-    place = place * s + Vec2(arc.x[n], arc.y[n]);
-    angle = angle * s + arc.angle[n];
+    place = place * s + arc.order[n].place();
+    angle = angle * s + arc.order[n].angle;
   }
   Snapshot now;
   now.position = place;

@@ -1,28 +1,48 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "block_world/block.h"
 #include "block_world/time.h"
 #include "block_world/world.h"
 #include "geometry.h"
+#include "room.h"
 #include "series.h"
 
 namespace block_world
 {
-/// What the cache of the processor takes in at a time, in bytes. What is looked at most often begins such a line.
-constexpr std::size_t kCacheLine = 64;
+/// Coefficients of one power of time.
+struct Coefficients
+{
+  double x = 0.0, y = 0.0, angle = 0.0;
 
-/// Exact motion of one body from `start` on: three polynomials in s = t - start, as true as rounding up to `horizon`.
-struct alignas(kCacheLine) Arc
+  Vec2 place() const
+  {
+    return Vec2(x, y);
+  }
+};
+
+/// Exact motion of one body from `start` on: three polynomials in s = t - start, as true as rounding up to `horizon`. Order by order in memory, of
+/// which parabolas take the first three.
+struct Arc
 {
   Time start;
-  double horizon = std::numeric_limits<double>::infinity();  ///< s
   Time end = Time::infinity();                               ///< start + horizon
+  double horizon = std::numeric_limits<double>::infinity();  ///< s
   /// Bounds of the third derivatives over the horizon (m/s^3, rad/s^3); 0 for parabolas.
   double jerk = 0.0, angular_jerk = 0.0;
   int degree = 0;
-  Series x{}, y{}, angle{};
+  std::array<Coefficients, kOrder + 1> order;
+
+  /// One of the three polynomials.
+  Series series(double Coefficients::*which) const
+  {
+    Series c;
+    for (int n = 0; n <= kOrder; ++n)
+      c[n] = order[n].*which;
+    return c;
+  }
 };
 
 /// A body's motion at one instant, with its accelerations.
@@ -49,17 +69,16 @@ struct alignas(kCacheLine) Body
   bool fixed = true;
   int island = -1;      ///< lowest index among the bodies that move as one with this one
   int first_pair = -1;  ///< of the list of pairs that this body is one of
-  double inverse_mass = 0.0, inverse_inertia = 0.0;  ///< 0 for what cannot move
-  /// To notice time standing still: events since an instant, and what it had cost then.
-  std::int64_t crowd = 0;
-  Time crowd_start;
   Cost cost;
+  std::int64_t crowd = 0;  ///< to notice time standing still: events since crowd_start
+  double inverse_mass = 0.0, inverse_inertia = 0.0;  ///< 0 for what cannot move
   Arc arc;
 
   std::string name;
   double mass = 0.0, inertia = 0.0;
   double elasticity = 1.0;
-  Cost crowd_cost;
+  Time crowd_start;
+  Cost crowd_cost;  ///< then
 
   std::vector<Thruster> thrusters;
   std::vector<double> levels;

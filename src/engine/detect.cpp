@@ -145,9 +145,9 @@ void Detector::localSeries(const View& view, bool of_face)
   else
   {
     const double shift = time_ - body.arc.start;
-    local.x = shifted(body.arc.x, body.arc.degree, shift);
-    local.y = shifted(body.arc.y, body.arc.degree, shift);
-    angle = shifted(body.arc.angle, body.arc.degree, shift);
+    local.x = shifted(body.arc.series(&Coefficients::x), body.arc.degree, shift);
+    local.y = shifted(body.arc.series(&Coefficients::y), body.arc.degree, shift);
+    angle = shifted(body.arc.series(&Coefficients::angle), body.arc.degree, shift);
   }
   local.c[0] = view.frame.cosine;
   local.s[0] = view.frame.sine;

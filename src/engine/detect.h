@@ -25,52 +25,50 @@ struct Resting
 class RestingOnes
 {
 public:
-  static constexpr std::uint8_t kMost = 3;
-
   void clear()
   {
-    count_ = 0;
+    ones_.fill(kNone);
   }
   bool empty() const
   {
-    return count_ == 0;
+    return ones_.front().vertex < 0;
   }
   void add(const Resting& one)
   {
-    if (count_ < kMost)
-      ones_[count_++] = one;
+    const auto free = std::find(ones_.begin(), ones_.end(), kNone);
+    if (free != ones_.end())
+      *free = one;
   }
   bool contains(const Resting& one) const
   {
-    return std::find(ones_.begin(), ones_.begin() + count_, one) != ones_.begin() + count_;
+    return !empty() && std::find(ones_.begin(), ones_.end(), one) != ones_.end();
   }
 
   template <class A>
   void exchange(A& archive)
   {
-    archive(count_);
-    count_ = std::min(count_, kMost);
-    for (std::size_t i = 0; i < count_; ++i)
+    for (Resting& one : ones_)
     {
-      int side = ones_[i].face_of_a, face = ones_[i].face;
-      archive(side, face, ones_[i].vertex);
-      ones_[i].face_of_a = side;
-      ones_[i].face = face;
+      int side = one.face_of_a, face = one.face;
+      archive(side, face, one.vertex);
+      one.face_of_a = side;
+      one.face = face;
     }
   }
 
 private:
-  std::array<Resting, kMost> ones_{};
-  std::uint8_t count_ = 0;
+  static constexpr Resting kNone{ 0, 0, -1 };
+
+  std::array<Resting, 3> ones_{ kNone, kNone, kNone };
 };
 
 /// Two bodies that may meet; at least one of them can move. In the list of pairs of either of them.
-struct Pair
+struct alignas(kCacheLine) Pair
 {
   int a = -1, b = -1;
-  double face_gap = 0.0;  ///< m, when the face was chosen
-  int face = -1;          ///< the face that was last seen to separate the bodies
   std::array<int, 2> next{ -1, -1 }, previous{ -1, -1 };  ///< in the list of a, in that of b
+  double face_gap = 0.0;                                  ///< m, when the face was chosen
+  int face = -1;                                          ///< the face that was last seen to separate the bodies
   RestingOnes resting;
   bool face_of_a = true;
   bool contact_due = false;  ///< the promise ends with a contact, not with a new look

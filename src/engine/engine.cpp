@@ -62,7 +62,7 @@ void World::Engine::build()
   for (Island& island : islands_)
     island.clear();
   promises_.reset(pairSlot(0));
-  cache_.assign(count, Cached());
+  forgetAll();
   member_of_.assign(count, -1);
   group_.clear();  // its members are bodies by their former numbers
   detector_.configure(scene.tolerance, resolution_);
@@ -94,9 +94,7 @@ void World::Engine::buildBodies()
         body.crowd_cost = body.cost = former.cost;
     body.crowd_start = now;
     body.elasticity = block.elasticity.value_or(scene.elasticity);
-    body.arc.x[0] = block.position.x();
-    body.arc.y[0] = block.position.y();
-    body.arc.angle[0] = block.angle;
+    body.arc.order[0] = { block.position.x(), block.position.y(), block.angle };
     largest = std::max({ largest, std::abs(block.position.x()), std::abs(block.position.y()), body.shape.radius });
     bodies.push_back(body);
   }

@@ -14,7 +14,7 @@
 namespace block_world
 {
 /// Bodies that move as one: joined by touches that carry force or by springs. Stored at the lowest of its body indices.
-struct Island
+struct alignas(kCacheLine) Island
 {
   std::vector<int> bodies;
   std::vector<Rest> rests;
@@ -125,10 +125,13 @@ private:
   void lookAtPair(int pair, const Time& time);
 
   // resolve.cpp: what happens at an event
+  struct Seen;
   void resolve(const Time& time);
   void join(int body, const Time& time);
   Member memberAt(int body, const Time& time);
   int memberOf(int body, const Time& time);
+  bool mayTouch(const Pair& pair, const Time& time);
+  Member viewed(int body, const Time& time);
   void findTouches(const Time& time, int round);
   void report(const Time& time, bool last);  // report.cpp, as is tell
   void tell(const Touch& touch, ContactKind kind, double impulse, const Time& time);
@@ -136,6 +139,10 @@ private:
   void settle(double paid);
   void fetch(int body) const;
   void fetchShape(int body) const;
+  Seen& seen(int body, const Time& time);
+  bool isSeen(int body) const;
+  void forget(int body);
+  void forgetAll();
   const Snapshot& snapshot(int body, const Time& time);
   Frame frame(int body, const Time& time);
   void freeAcceleration(Member& member) const;
@@ -207,14 +214,18 @@ private:
   double initial_total_ = 0.0, thrust_work_ = 0.0, spring_work_ = 0.0, command_work_ = 0.0, damping_loss_ = 0.0, impact_loss_ = 0.0;
 
   // Workspace of an event.
-  struct alignas(kCacheLine) Cached
+  /// A body at the instant that is looked at.
+  struct alignas(kCacheLine) Seen
   {
-    Time time = Time::infinity();
     Snapshot now;
     double cosine = 1.0, sine = 0.0;
+    int body = -1;
     bool framed = false;
   };
-  std::vector<Cached> cache_;
+  std::vector<Seen> seen_;    ///< room for all bodies; the few that are seen at an instant come first, in little memory
+  std::vector<int> seen_as_;  ///< by body, its place among them if it is there
+  int seen_count_ = 0;
+  Time seen_at_;
   std::vector<int> seeds_, member_of_, group_pairs_, component_, island_members_;
   std::vector<int> pair_mark_, body_mark_, near_;
   int mark_ = 0;

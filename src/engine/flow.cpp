@@ -28,13 +28,9 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
     body.arc.start = start;
     // What is beyond the degree is zero already.
     for (int n = 2; n <= body.arc.degree; ++n)
-      body.arc.x[n] = body.arc.y[n] = body.arc.angle[n] = 0.0;
-    body.arc.x[0] = m.frame.position.x();
-    body.arc.y[0] = m.frame.position.y();
-    body.arc.angle[0] = m.angle;
-    body.arc.x[1] = m.velocity.x();
-    body.arc.y[1] = m.velocity.y();
-    body.arc.angle[1] = m.omega;
+      body.arc.order[n] = Coefficients();
+    body.arc.order[0] = { m.frame.position.x(), m.frame.position.y(), m.angle };
+    body.arc.order[1] = { m.velocity.x(), m.velocity.y(), m.omega };
     BodyWork& w = work_[i];
     w.direction[0] = Vec2(1.0, 0.0);
     w.push = m.frame.rotate(body.push);
@@ -63,7 +59,7 @@ void Flow::turn(int n)
     BodyWork& w = work_[i];
     if (!w.trigonometric)
       continue;
-    const double angle = body_[i]->arc.angle[n];
+    const double angle = body_[i]->arc.order[n].angle;
     w.rate[n] = n * angle;
     w.known = w.rotating ? Vec2(perp(cauchy(w.rate, w.direction, n, 1, n - 1)) / n) : Vec2(Vec2::Zero());
     w.direction[n] = w.known + Vec2(0.0, angle);
@@ -78,8 +74,8 @@ void Flow::freeAcceleration(int n)
     BodyWork& w = work_[i];
     const Body& body = *body_[i];
     const double k = field_->damping * body.inverse_mass * (n + 1);
-    w.a = Vec2(-k * body.arc.x[n + 1], -k * body.arc.y[n + 1] - (n == 0 ? field_->gravity : 0.0));
-    w.alpha = -field_->rotational_damping * body.inverse_inertia * (n + 1) * body.arc.angle[n + 1];
+    w.a = Vec2(-k * body.arc.order[n + 1].x, -k * body.arc.order[n + 1].y - (n == 0 ? field_->gravity : 0.0));
+    w.alpha = -field_->rotational_damping * body.inverse_inertia * (n + 1) * body.arc.order[n + 1].angle;
     w.ax_size = std::abs(w.a.x());
     w.ay_size = std::abs(w.a.y());
     w.alpha_size = std::abs(w.alpha);
@@ -141,9 +137,9 @@ void Flow::placeRests(int n)
       r.arm[n] = r.a >= 0 ? turned(work_[r.a].direction[n], t.arm) : Vec2(Vec2::Zero());
       r.reach[n] = r.arm[n];
       if (r.a >= 0)
-        r.reach[n] += Vec2(body_[r.a]->arc.x[n], body_[r.a]->arc.y[n]);
+        r.reach[n] += body_[r.a]->arc.order[n].place();
       if (r.b >= 0)
-        r.reach[n] -= Vec2(body_[r.b]->arc.x[n], body_[r.b]->arc.y[n]);
+        r.reach[n] -= body_[r.b]->arc.order[n].place();
     }
     r.turned[n] = -perp(r.normal[n]);
   }
@@ -205,9 +201,7 @@ void Flow::contactSolve(int n)
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     Arc& arc = body_[i]->arc;
-    arc.x[n + 2] = work_[i].a.x() * divisor;
-    arc.y[n + 2] = work_[i].a.y() * divisor;
-    arc.angle[n + 2] = work_[i].alpha * divisor;
+    arc.order[n + 2] = { work_[i].a.x() * divisor, work_[i].a.y() * divisor, work_[i].alpha * divisor };
   }
   turn(n + 2);
   placeRests(n + 2);
@@ -258,27 +252,25 @@ bool Flow::store(int n)
   {
     const BodyWork& w = work_[i];
     Arc& arc = body_[i]->arc;
-    arc.x[n + 2] = cleaned(w.a.x(), w.ax_size) * divisor;
-    arc.y[n + 2] = cleaned(w.a.y(), w.ay_size) * divisor;
-    arc.angle[n + 2] = cleaned(w.alpha, w.alpha_size) * divisor;
+    arc.order[n + 2] = { cleaned(w.a.x(), w.ax_size) * divisor, cleaned(w.a.y(), w.ay_size) * divisor, cleaned(w.alpha, w.alpha_size) * divisor };
   }
   if (rest_work_.empty())
     turn(n + 2);
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     BodyWork& w = work_[i];
-    const double angle = body_[i]->arc.angle[n + 2];
+    const double angle = body_[i]->arc.order[n + 2].angle;
     w.rate[n + 2] = (n + 2) * angle;
     w.direction[n + 2] = w.known + Vec2(0.0, angle);
     w.rotating = w.rotating || angle != 0.0;
     const Arc& arc = body_[i]->arc;
-    fits = fits && std::abs(arc.x[n + 2]) < kLargest && std::abs(arc.y[n + 2]) < kLargest && std::abs(angle) < kLargest;
+    fits = fits && std::abs(arc.order[n + 2].x) < kLargest && std::abs(arc.order[n + 2].y) < kLargest && std::abs(angle) < kLargest;
   }
   placeRests(n + 2);
   if (n < 3 || fits)
     return true;
   for (Body* body : body_)
-    body->arc.x[n + 2] = body->arc.y[n + 2] = body->arc.angle[n + 2] = 0.0;
+    body->arc.order[n + 2] = Coefficients();
   for (Rest& rest : *rests_)
     rest.force[n] = 0.0;
   return false;
@@ -295,7 +287,7 @@ bool Flow::endsEarly() const
     const Arc& arc = body_[i]->arc;
     if (work_[i].rotating && work_[i].trigonometric)
       return false;
-    if (field_->damping != 0.0 && (arc.x[2] != 0.0 || arc.y[2] != 0.0 || arc.angle[2] != 0.0))
+    if (field_->damping != 0.0 && (arc.order[2].x != 0.0 || arc.order[2].y != 0.0 || arc.order[2].angle != 0.0))
       return false;
   }
   for (const RestWork& r : rest_work_)

@@ -23,9 +23,9 @@ struct Rest
 /// Works along the arcs of an island since their start, J.
 struct Works
 {
+  int degree = 0;          ///< 0: nothing works
   ProductSeries thrust{};  ///< done by thrusters and wrenches
   ProductSeries loss{};    ///< taken by damping and by the dampers of springs
-  int degree = 0;
 };
 
 /// Points fixed in two bodies (or one in the world) as series: what a spring needs along an arc.

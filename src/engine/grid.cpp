@@ -54,28 +54,30 @@ void Grid::configure(const std::vector<double>& radii, double shell)
   }
   alone_ = used_bodies < 2;
   entries_.assign(count, Entry());
-  std::size_t buckets = 16;
-  while (buckets < 2 * entries_.size())
-    buckets *= 2;
-  heads_.assign(buckets, -1);
+  Block empty;
+  empty.heads.fill(-1);
+  std::size_t blocks = 1;
+  while (empty.heads.size() * blocks < 2 * entries_.size())
+    blocks *= 2;
+  blocks_.assign(blocks, empty);
 }
 
-std::size_t Grid::bucket(const Cell& cell) const
+std::size_t Grid::block(int level, const Cell& cell) const
 {
-  std::uint64_t hash = static_cast<std::uint64_t>(cell.x) * 0x9e3779b97f4a7c15u;
-  hash ^= static_cast<std::uint64_t>(cell.y) * 0xc2b2ae3d27d4eb4fu + static_cast<std::uint64_t>(cell.level) * 0x165667b19e3779f9u;
+  std::uint64_t hash = static_cast<std::uint64_t>(cell.x >> 2) * 0x9e3779b97f4a7c15u;
+  hash ^= static_cast<std::uint64_t>(cell.y >> 2) * 0xc2b2ae3d27d4eb4fu + static_cast<std::uint64_t>(level) * 0x165667b19e3779f9u;
   hash ^= hash >> 32;
-  return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u >> 32) & (heads_.size() - 1);
+  return static_cast<std::size_t>(hash * 0x9e3779b97f4a7c15u >> 32) & (blocks_.size() - 1);
 }
 
 void Grid::link(int entry)
 {
-  int& head = heads_[bucket(entries_[entry].cell)];
+  int& first = blocks_[block(entries_[entry].level, entries_[entry].cell)].head(entries_[entry].cell);
   entries_[entry].previous = -1;
-  entries_[entry].next = head;
-  if (head >= 0)
-    entries_[head].previous = entry;
-  head = entry;
+  entries_[entry].next = first;
+  if (first >= 0)
+    entries_[first].previous = entry;
+  first = entry;
 }
 
 void Grid::unlink(int entry)
@@ -84,7 +86,7 @@ void Grid::unlink(int entry)
   if (e.previous >= 0)
     entries_[e.previous].next = e.next;
   else
-    heads_[bucket(e.cell)] = e.next;
+    blocks_[block(e.level, e.cell)].head(e.cell) = e.next;
   if (e.next >= 0)
     entries_[e.next].previous = e.previous;
 }
@@ -95,8 +97,7 @@ bool Grid::place(int body, const Vec2& centre)
   if (home.level < 0)
     return false;
   const double size = levels_[home.level].size;
-  const Cell own{ home.level, static_cast<std::int64_t>(std::floor(centre.x() / size)),
-                  static_cast<std::int64_t>(std::floor(centre.y() / size)) };
+  const Cell own{ static_cast<std::int64_t>(std::floor(centre.x() / size)), static_cast<std::int64_t>(std::floor(centre.y() / size)) };
   if (home.listed && own == entries_[home.first].cell)
     return false;
   for (int level = home.level; level < static_cast<int>(levels_.size()); ++level)
@@ -106,7 +107,8 @@ bool Grid::place(int body, const Vec2& centre)
     if (home.listed)
       unlink(entry);
     entries_[entry].body = body;
-    entries_[entry].cell = { level, halved(own.x, up), halved(own.y, up) };
+    entries_[entry].level = level;
+    entries_[entry].cell = { halved(own.x, up), halved(own.y, up) };
     link(entry);
   }
   home.listed = true;
@@ -129,12 +131,12 @@ void Grid::neighbours(int body, std::vector<int>& found) const
       for (int dy = -1; dy <= 1; ++dy)
       {
         const Cell& centre = cell(body, level);
-        const Cell wanted{ level, centre.x + dx, centre.y + dy };
-        for (int entry = heads_[bucket(wanted)]; entry >= 0; entry = entries_[entry].next)
+        const Cell wanted{ centre.x + dx, centre.y + dy };
+        for (int entry = blocks_[block(level, wanted)].head(wanted); entry >= 0; entry = entries_[entry].next)
         {
           const int other = entries_[entry].body;
           // On a coarser level only those that live there: with the others this body meets on a finer one.
-          if (entries_[entry].cell == wanted && other != body && (level == own || homes_[other].level == level))
+          if (entries_[entry].cell == wanted && entries_[entry].level == level && other != body && (level == own || homes_[other].level == level))
             found.push_back(other);
         }
       }
@@ -145,7 +147,7 @@ Grid::Box Grid::keeps(int body) const
   if (alone_)
     return { Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL) };
   const Cell& own = cell(body, homes_[body].level);
-  const double size = levels_[own.level].size;
+  const double size = levels_[homes_[body].level].size;
   const Vec2 corner(static_cast<double>(own.x) * size, static_cast<double>(own.y) * size);
   return { corner - Vec2::Constant(kMargin * size), corner + Vec2::Constant((1.0 + kMargin) * size) };
 }

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "geometry.h"
+#include "room.h"
 
 namespace block_world
 {
@@ -38,34 +40,34 @@ public:
   template <class A>
   void exchange(A& archive)
   {
-    archive(alone_, levels_, homes_, entries_, heads_);
+    archive(alone_, levels_, homes_, entries_, blocks_);
   }
 
 private:
   struct Cell
   {
-    int level = 0;
     std::int64_t x = 0, y = 0;
     bool operator==(const Cell& other) const
     {
-      return level == other.level && x == other.x && y == other.y;
+      return x == other.x && y == other.y;
     }
     template <class A>
     void exchange(A& archive)
     {
-      archive(level, x, y);
+      archive(x, y);
     }
   };
   /// One listing of a body; those whose cells hash alike form a list.
   struct Entry
   {
     Cell cell;
+    int level = 0;
     int body = -1;
     int next = -1, previous = -1;
     template <class A>
     void exchange(A& archive)
     {
-      archive(cell, body, next, previous);
+      archive(cell, level, body, next, previous);
     }
   };
   struct Home
@@ -90,11 +92,30 @@ private:
     }
   };
 
+  /// First entries of the lists of 4 x 4 cells: neighbours are near to each other in memory, too.
+  struct alignas(kCacheLine) Block
+  {
+    std::array<int, 16> heads;
+    int& head(const Cell& cell)
+    {
+      return heads[static_cast<std::size_t>(4 * (cell.y & 3) + (cell.x & 3))];
+    }
+    int head(const Cell& cell) const
+    {
+      return heads[static_cast<std::size_t>(4 * (cell.y & 3) + (cell.x & 3))];
+    }
+    template <class A>
+    void exchange(A& archive)
+    {
+      archive(heads);
+    }
+  };
+
   const Cell& cell(int body, int level) const
   {
     return entries_[homes_[body].first + level - homes_[body].level].cell;
   }
-  std::size_t bucket(const Cell& cell) const;
+  std::size_t block(int level, const Cell& cell) const;
   void link(int entry);
   void unlink(int entry);
 
@@ -102,7 +123,7 @@ private:
   std::vector<Level> levels_;  ///< those that bodies live on, finest first
   std::vector<Home> homes_;
   std::vector<Entry> entries_;
-  std::vector<int> heads_;  ///< by hash of the cell
+  std::vector<Block> blocks_;  ///< by hash of level and place
 };
 
 }  // namespace block_world

@@ -22,7 +22,7 @@ constexpr double kLongest = 1048576.0;
 /// Size of order n of an arc, m / s^n.
 double sizeOf(const Arc& arc, double radius, int n)
 {
-  return std::max({ std::abs(arc.x[n]), std::abs(arc.y[n]), radius * std::abs(arc.angle[n]) });
+  return std::max({ std::abs(arc.order[n].x), std::abs(arc.order[n].y), radius * std::abs(arc.order[n].angle) });
 }
 
 /// Bounds of the third derivatives over the horizon.
@@ -33,8 +33,8 @@ void findJerk(Arc& arc)
   for (int n = 3; n <= arc.degree; ++n, power *= arc.horizon)
   {
     const double weight = n * (n - 1) * (n - 2) * power;
-    arc.jerk += weight * std::sqrt(arc.x[n] * arc.x[n] + arc.y[n] * arc.y[n]);
-    arc.angular_jerk += weight * std::abs(arc.angle[n]);
+    arc.jerk += weight * std::sqrt(arc.order[n].x * arc.order[n].x + arc.order[n].y * arc.order[n].y);
+    arc.angular_jerk += weight * std::abs(arc.order[n].angle);
   }
 }
 }  // namespace
@@ -57,7 +57,7 @@ double Flow::horizon(int degree) const
     for (std::size_t i = 0; i < work_.size(); ++i)
     {
       const Arc& arc = body_[i]->arc;
-      const double radius = body_[i]->shape.radius, size = std::max({ std::abs(arc.x[0]), std::abs(arc.y[0]), radius });
+      const double radius = body_[i]->shape.radius, size = std::max({ std::abs(arc.order[0].x), std::abs(arc.order[0].y), radius });
       share = std::max(share, sizeOf(arc, radius, n) / size);
       if (work_[i].trigonometric)
         share = std::max(share, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
@@ -119,7 +119,7 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   {
     Arc& arc = body->arc;
     arc.degree = degree;
-    while (arc.degree > 0 && arc.x[arc.degree] == 0.0 && arc.y[arc.degree] == 0.0 && arc.angle[arc.degree] == 0.0)
+    while (arc.degree > 0 && arc.order[arc.degree].x == 0.0 && arc.order[arc.degree].y == 0.0 && arc.order[arc.degree].angle == 0.0)
       --arc.degree;
     arc.horizon = span;
     arc.end = arc.start + span;
@@ -170,8 +170,8 @@ void Flow::findWorks(int degree, Works& works)
     const Body& body = *body_[i];
     for (int n = 0; n <= last; ++n)
     {
-      rate[n] = (n + 1) * Vec2(body.arc.x[n + 1], body.arc.y[n + 1]);
-      spin[n] = (n + 1) * body.arc.angle[n + 1];
+      rate[n] = (n + 1) * body.arc.order[n + 1].place();
+      spin[n] = (n + 1) * body.arc.order[n + 1].angle;
     }
     if (field_->damping > 0.0)
     {

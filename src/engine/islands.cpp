@@ -158,7 +158,7 @@ void World::Engine::move(Island& island, const Time& time)
 {
   flow_.expand(bodies, links_, field_, time, wereBrief(island, time) ? kLowOrder : kOrder, island_state_, island.rests, island.works);
   for (int body : island.bodies)
-    cache_[body].time = Time::infinity();
+    forget(body);
   if (isStill(island))
     sleep(island);
 }
@@ -174,8 +174,8 @@ bool World::Engine::isStill(const Island& island) const
   return a > 0.0 && std::all_of(island.bodies.begin(), island.bodies.end(), [&](int body) {
     const Arc& arc = bodies[body].arc;
     const double radius = bodies[body].shape.radius;
-    const double speed = std::hypot(arc.x[1], arc.y[1]) + radius * std::abs(arc.angle[1]);
-    const double acceleration = 2.0 * (std::hypot(arc.x[2], arc.y[2]) + radius * std::abs(arc.angle[2]));
+    const double speed = std::hypot(arc.order[1].x, arc.order[1].y) + radius * std::abs(arc.order[1].angle);
+    const double acceleration = 2.0 * (std::hypot(arc.order[2].x, arc.order[2].y) + radius * std::abs(arc.order[2].angle));
     return speed <= 1e-12 * std::sqrt(a * radius) && acceleration <= 1e-12 * a;
   });
 }
@@ -187,7 +187,7 @@ void World::Engine::sleep(Island& island)
   {
     Arc& arc = bodies[body].arc;
     for (int n = 1; n <= arc.degree; ++n)
-      arc.x[n] = arc.y[n] = arc.angle[n] = 0.0;
+      arc.order[n] = Coefficients();
     arc.degree = 0;
     arc.horizon = std::numeric_limits<double>::infinity();
     arc.end = Time::infinity();

@@ -45,7 +45,7 @@ void World::Engine::findNear(int body)
 void World::Engine::pairAll()
 {
   for (int a = 0; a < block_count; ++a)
-    grid_.place(a, Vec2(bodies[a].arc.x[0], bodies[a].arc.y[0]));
+    grid_.place(a, bodies[a].arc.order[0].place());
   for (int a = 0; a < block_count; ++a)
   {
     findNear(a);

@@ -20,8 +20,7 @@ void fetchLines(const void* from, const void* to)
 /// Has what a look at a body needs brought from memory, all at once, where one after the other would take several times as long.
 void World::Engine::fetch(int body) const
 {
-  fetchLines(&bodies[body], &bodies[body].arc.angle[3]);
-  fetchLines(&cache_[body], &cache_[body] + 1);
+  fetchLines(&bodies[body], &bodies[body].arc.order[3]);
 }
 
 /// The same for what a close look needs.
@@ -32,32 +31,65 @@ void World::Engine::fetchShape(int body) const
   fetchLines(shape.faces.data(), shape.faces.data() + shape.faces.size());
 }
 
+bool World::Engine::isSeen(int body) const
+{
+  const int place = seen_as_[body];
+  return place < seen_count_ && seen_[place].body == body;
+}
+
+World::Engine::Seen& World::Engine::seen(int body, const Time& time)
+{
+  if (seen_at_ != time)
+  {
+    seen_count_ = 0;
+    seen_at_ = time;
+  }
+  if (!isSeen(body))
+  {
+    seen_as_[body] = seen_count_;
+    Seen& fresh = seen_[seen_count_++];
+    fresh.body = body;
+    fresh.now = bodies[body].at(time);
+    fresh.framed = false;
+  }
+  return seen_[seen_as_[body]];
+}
+
+/// The body's arc changes.
+void World::Engine::forget(int body)
+{
+  if (!isSeen(body))
+    return;
+  const Seen& last = seen_[--seen_count_];
+  seen_as_[last.body] = seen_as_[body];
+  seen_[seen_as_[body]] = last;
+}
+
+void World::Engine::forgetAll()
+{
+  seen_.assign(bodies.size(), Seen());
+  seen_as_.assign(bodies.size(), 0);
+  seen_count_ = 0;
+}
+
 const Snapshot& World::Engine::snapshot(int body, const Time& time)
 {
-  Cached& cached = cache_[body];
-  if (cached.time != time)
-  {
-    cached.time = time;
-    cached.framed = false;
-    cached.now = bodies[body].at(time);
-  }
-  return cached.now;
+  return seen(body, time).now;
 }
 
 Frame World::Engine::frame(int body, const Time& time)
 {
-  const Snapshot& now = snapshot(body, time);
-  Cached& cached = cache_[body];
-  if (!cached.framed)
+  Seen& it = seen(body, time);
+  if (!it.framed)
   {
-    cached.cosine = std::cos(now.angle);
-    cached.sine = std::sin(now.angle);
-    cached.framed = true;
+    it.cosine = std::cos(it.now.angle);
+    it.sine = std::sin(it.now.angle);
+    it.framed = true;
   }
   Frame frame;
-  frame.position = now.position;
-  frame.cosine = cached.cosine;
-  frame.sine = cached.sine;
+  frame.position = it.now.position;
+  frame.cosine = it.cosine;
+  frame.sine = it.sine;
   return frame;
 }
 
@@ -94,7 +126,7 @@ void World::Engine::freeAcceleration(Member& m) const
       // Movable ends of a spring are members together; a fixed one stays where its arc begins.
       const int k = member_of_[other];
       const Arc& still = bodies[other].arc;
-      const Frame f = k >= 0 ? group_.members[k].frame : Frame(Vec2(still.x[0], still.y[0]), still.angle[0]);
+      const Frame f = k >= 0 ? group_.members[k].frame : Frame(still.order[0].place(), still.order[0].angle);
       const Vec2 far_arm = f.rotate(end);
       if (k >= 0)
         end_velocity = group_.members[k].velocity + group_.members[k].omega * perp(far_arm);
@@ -134,10 +166,8 @@ int World::Engine::memberOf(int body, const Time& time)
 {
   if (member_of_[body] >= 0)
     return member_of_[body];
-  Member m = memberAt(body, time);
-  m.frame = frame(body, time);
-  member_of_[body] = static_cast<int>(group_.members.size());
-  group_.members.push_back(m);
+  group_.members.push_back(viewed(body, time));
+  member_of_[body] = static_cast<int>(group_.members.size()) - 1;
   return member_of_[body];
 }
 
@@ -157,6 +187,32 @@ void World::Engine::join(int body, const Time& time)
     for (int end : { links_[index].first, links_[index].second })
       if (end >= 0 && !bodies[end].fixed)
         join(end, time);
+}
+
+/// Whether the circles of a pair, or a circle and a half-plane, are as near as a touch has them.
+bool World::Engine::mayTouch(const Pair& pair, const Time& time)
+{
+  const Polygon &first = bodies[pair.a].shape, &second = bodies[pair.b].shape;
+  const Vec2 &at_first = snapshot(pair.a, time).position, &at_second = snapshot(pair.b, time).position;
+  const double shell = 0.5 * scene.tolerance;
+  if (first.vertices.empty() || second.vertices.empty())
+  {
+    const bool wall_first = first.vertices.empty();
+    const Face& face = (wall_first ? first : second).faces.front();
+    return !(face.normal.dot(wall_first ? at_second : at_first) - face.offset > (wall_first ? second : first).radius + shell);
+  }
+  const double reach = first.radius + second.radius + shell;
+  return !((at_first - at_second).squaredNorm() > reach * reach);
+}
+
+/// The body as the group has it, or else as its arc has it.
+Member World::Engine::viewed(int body, const Time& time)
+{
+  if (member_of_[body] >= 0)
+    return group_.members[member_of_[body]];
+  Member m = memberAt(body, time);
+  m.frame = frame(body, time);
+  return m;
 }
 
 /// All touches of the group's bodies; who touches them joins the group with its island.
@@ -179,32 +235,11 @@ void World::Engine::findTouches(const Time& time, int round)
       group_pairs_.push_back(index);
       const Pair& pair = pairs_[index];
       const int other = pair.other(body);
-      const Body &first = bodies[pair.a], &second = bodies[pair.b];
-      const auto viewed = [&](int which) {
-        const int k = member_of_[which];
-        return k >= 0 ? group_.members[k] : memberAt(which, time);
-      };
-      Member view_a = viewed(pair.a), view_b = viewed(pair.b);
-      const double shell = 0.5 * scene.tolerance;
-      if (first.shape.vertices.empty() || second.shape.vertices.empty())
-      {
-        const bool wall_first = first.shape.vertices.empty();
-        const Face& face = (wall_first ? first : second).shape.faces.front();
-        const Body& block = wall_first ? second : first;
-        if (face.normal.dot((wall_first ? view_b : view_a).frame.position) - face.offset > block.shape.radius + shell)
-          continue;
-      }
-      else
-      {
-        const double reach = first.shape.radius + second.shape.radius + shell;
-        if ((view_a.frame.position - view_b.frame.position).squaredNorm() > reach * reach)
-          continue;
-      }
-      for (Member* view : { &view_a, &view_b })
-        if (member_of_[view->body] < 0)
-          view->frame = frame(view->body, time);
+      if (!mayTouch(pair, time))
+        continue;
       const std::size_t before = group_.touches.size();
-      finder_.find(first, view_a, second, view_b, scene.tolerance, group_.touches, 2.0 * detector_.guard(), group_.noise(), round > 0);
+      finder_.find(bodies[pair.a], viewed(pair.a, time), bodies[pair.b], viewed(pair.b, time), scene.tolerance, group_.touches,
+                   2.0 * detector_.guard(), group_.noise(), round > 0);
       velocity_decided_ = velocity_decided_ || finder_.velocityDecided();
       if (group_.touches.size() == before)
         continue;

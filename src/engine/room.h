@@ -4,6 +4,9 @@
 
 namespace block_world
 {
+/// What the cache of the processor takes in at a time, in bytes. What is looked at most often begins such a line.
+constexpr std::size_t kCacheLine = 64;
+
 /// Room for vectors that take so many entries, of which none grows by itself: the memory of all doubles at once and soon suffices for good.
 class Room
 {

@@ -8,7 +8,7 @@ namespace
 {
 // Of the file: to be raised whenever what is exchanged changes.
 constexpr char kMagic[] = "block_world state\n";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 /// Tells apart files of processors that order their bytes otherwise.
 constexpr std::uint32_t kByteOrder = 0x01020304;
@@ -93,7 +93,7 @@ World::Engine::Engine(const std::string& saved, std::int64_t seconds_later)
 
 void World::Engine::clearWorkspace()
 {
-  cache_.assign(bodies.size(), Cached());
+  forgetAll();
   member_of_.assign(bodies.size(), -1);
   body_mark_.assign(bodies.size(), 0);
   pair_mark_.assign(pairs_.size(), 0);

@@ -130,10 +130,17 @@ void exchange(A& archive, Polygon& polygon)
 }
 
 template <class A>
+void exchange(A& archive, Coefficients& coefficients)
+{
+  auto& [x, y, angle] = coefficients;
+  archive(x, y, angle);
+}
+
+template <class A>
 void exchange(A& archive, Arc& arc)
 {
-  auto& [start, horizon, end, jerk, angular_jerk, degree, x, y, angle] = arc;
-  archive(start, horizon, end, jerk, angular_jerk, degree, x, y, angle);
+  auto& [start, end, horizon, jerk, angular_jerk, degree, order] = arc;
+  archive(start, end, horizon, jerk, angular_jerk, degree, order);
 }
 
 template <class A>
@@ -160,9 +167,9 @@ void exchange(A& archive, Cost& cost)
 template <class A>
 void exchange(A& archive, Body& body)
 {
-  auto& [shape, fixed, island, first_pair, inverse_mass, inverse_inertia, crowd, crowd_start, cost, arc, name, mass, inertia, elasticity,
+  auto& [shape, fixed, island, first_pair, cost, crowd, inverse_mass, inverse_inertia, arc, name, mass, inertia, elasticity, crowd_start,
          crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs] = body;
-  archive(shape, fixed, island, first_pair, inverse_mass, inverse_inertia, crowd, crowd_start, cost, arc, name, mass, inertia, elasticity,
+  archive(shape, fixed, island, first_pair, cost, crowd, inverse_mass, inverse_inertia, arc, name, mass, inertia, elasticity, crowd_start,
           crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs);
 }
 
@@ -183,8 +190,8 @@ void exchange(A& archive, Field& field)
 template <class A>
 void exchange(A& archive, Pair& pair)
 {
-  auto& [a, b, face_gap, face, next, previous, resting, face_of_a, contact_due] = pair;
-  archive(a, b, face_gap, face, next, previous, resting, face_of_a, contact_due);
+  auto& [a, b, next, previous, face_gap, face, resting, face_of_a, contact_due] = pair;
+  archive(a, b, next, previous, face_gap, face, resting, face_of_a, contact_due);
 }
 
 template <class A>
@@ -206,8 +213,8 @@ void exchange(A& archive, Rest& rest)
 template <class A>
 void exchange(A& archive, Works& works)
 {
-  auto& [thrust, loss, degree] = works;
-  archive(thrust, loss, degree);
+  auto& [degree, thrust, loss] = works;
+  archive(degree, thrust, loss);
 }
 
 template <class A>

@@ -80,7 +80,7 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
       if (second >= 0)
         w.to = members[second].frame.rotate(second_point);
       else if (fixed >= 0)
-        w.world = Frame(Vec2(bodies[fixed].arc.x[0], bodies[fixed].arc.y[0]), bodies[fixed].arc.angle[0]).toWorld(second_point);
+        w.world = Frame(bodies[fixed].arc.order[0].place(), bodies[fixed].arc.order[0].angle).toWorld(second_point);
       else
         w.world = second_point;
     }
@@ -92,7 +92,7 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
 void Flow::placeEnds(LinkWork& link, int n)
 {
   SpringSeries& v = link.series;
-  const auto placeOf = [&](int index) { return Vec2(body_[index]->arc.x[n], body_[index]->arc.y[n]); };
+  const auto placeOf = [&](int index) { return body_[index]->arc.order[n].place(); };
   v.from[n] = turned(work_[link.first].direction[n], link.from);
   v.d[n] = placeOf(link.first) + v.from[n];
   if (link.second >= 0)
@@ -118,7 +118,7 @@ void Flow::springForce(LinkWork& link, int n)
     if (n == 0)
     {
       const Arc& arc = body_[link.first]->arc;
-      v.coincident = v.d[0].norm() <= kCancelled * (std::abs(arc.x[0]) + std::abs(arc.y[0]) + link.rest_length);
+      v.coincident = v.d[0].norm() <= kCancelled * (std::abs(arc.order[0].x) + std::abs(arc.order[0].y) + link.rest_length);
     }
     for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
       lengthSeries(v, v.coincident ? k - 1 : k);
