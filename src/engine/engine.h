@@ -125,7 +125,14 @@ private:
   void lookAtPair(int pair, const Time& time);
 
   // resolve.cpp: what happens at an event
-  struct Seen;
+  /// A body at the instant that is looked at.
+  struct alignas(kCacheLine) Seen
+  {
+    Snapshot now;
+    double cosine = 1.0, sine = 0.0;
+    int body = -1;
+    bool framed = false;
+  };
   void resolve(const Time& time);
   void join(int body, const Time& time);
   Member memberAt(int body, const Time& time);
@@ -139,11 +146,20 @@ private:
   void settle(double paid);
   void fetch(int body) const;
   void fetchShape(int body) const;
-  Seen& seen(int body, const Time& time);
-  bool isSeen(int body) const;
+  bool isSeen(int body) const
+  {
+    const int place = seen_as_[body];
+    return place < seen_count_ && seen_[place].body == body;
+  }
+  void see(int body, const Time& time);
   void forget(int body);
   void forgetAll();
-  const Snapshot& snapshot(int body, const Time& time);
+  const Snapshot& snapshot(int body, const Time& time)
+  {
+    if (seen_at_ != time || !isSeen(body))
+      see(body, time);
+    return seen_[seen_as_[body]].now;
+  }
   Frame frame(int body, const Time& time);
   void freeAcceleration(Member& member) const;
 
@@ -214,14 +230,6 @@ private:
   double initial_total_ = 0.0, thrust_work_ = 0.0, spring_work_ = 0.0, command_work_ = 0.0, damping_loss_ = 0.0, impact_loss_ = 0.0;
 
   // Workspace of an event.
-  /// A body at the instant that is looked at.
-  struct alignas(kCacheLine) Seen
-  {
-    Snapshot now;
-    double cosine = 1.0, sine = 0.0;
-    int body = -1;
-    bool framed = false;
-  };
   std::vector<Seen> seen_;    ///< room for all bodies; the few that are seen at an instant come first, in little memory
   std::vector<int> seen_as_;  ///< by body, its place among them if it is there
   int seen_count_ = 0;

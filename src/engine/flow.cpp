@@ -16,15 +16,13 @@ double cleaned(double sum, double size)
 void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
                  const std::vector<Member>& members, std::vector<Rest>& rests)
 {
-  members_room_.provide(members.size(), body_, work_);
+  members_room_.provide(members.size(), work_);
   rests_room_.provide(rests.size(), rest_work_, row_, rhs_, residual_);
-  body_.clear();
   work_.resize(members.size());
   for (std::size_t i = 0; i < members.size(); ++i)
   {
     const Member& m = members[i];
     Body& body = bodies[m.body];
-    body_.push_back(&body);
     body.arc.start = start;
     // What is beyond the degree is zero already.
     for (int n = 2; n <= body.arc.degree; ++n)
@@ -32,6 +30,7 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
     body.arc.order[0] = { m.frame.position.x(), m.frame.position.y(), m.angle };
     body.arc.order[1] = { m.velocity.x(), m.velocity.y(), m.omega };
     BodyWork& w = work_[i];
+    w.body = &body;
     w.direction[0] = Vec2(1.0, 0.0);
     w.push = m.frame.rotate(body.push);
     w.trigonometric = body.pushed() || body.sprung();
@@ -54,16 +53,21 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
 /// Directions of order n from the angles up to order n: with w the rate of the angle, direction' = w perp(direction).
 void Flow::turn(int n)
 {
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  for (BodyWork& w : work_)
   {
-    BodyWork& w = work_[i];
     if (!w.trigonometric)
       continue;
-    const double angle = body_[i]->arc.order[n].angle;
-    w.rate[n] = n * angle;
     w.known = w.rotating ? Vec2(perp(cauchy(w.rate, w.direction, n, 1, n - 1)) / n) : Vec2(Vec2::Zero());
-    w.direction[n] = w.known + Vec2(0.0, angle);
+    turnTo(w, n);
   }
+}
+
+/// The same where the angles of the orders below n have been known before.
+void Flow::turnTo(BodyWork& w, int n)
+{
+  const double angle = w.body->arc.order[n].angle;
+  w.rate[n] = n * angle;
+  w.direction[n] = w.known + Vec2(0.0, angle);
 }
 
 /// Accelerations of order n by everything but contact; sizes hold the sums of the absolute values of the terms.
@@ -72,12 +76,12 @@ void Flow::freeAcceleration(int n)
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     BodyWork& w = work_[i];
-    const Body& body = *body_[i];
+    const Body& body = *w.body;
+    const Coefficients& c = body.arc.order[n + 1];
     const double k = field_->damping * body.inverse_mass * (n + 1);
-    w.a = Vec2(-k * body.arc.order[n + 1].x, -k * body.arc.order[n + 1].y - (n == 0 ? field_->gravity : 0.0));
-    w.alpha = -field_->rotational_damping * body.inverse_inertia * (n + 1) * body.arc.order[n + 1].angle;
-    w.ax_size = std::abs(w.a.x());
-    w.ay_size = std::abs(w.a.y());
+    w.a = Vec2(-k * c.x, -k * c.y - (n == 0 ? field_->gravity : 0.0));
+    w.alpha = -field_->rotational_damping * body.inverse_inertia * (n + 1) * c.angle;
+    w.a_size = w.a.cwiseAbs();
     w.alpha_size = std::abs(w.alpha);
     if (body.pushed())
     {
@@ -86,8 +90,7 @@ void Flow::freeAcceleration(int n)
       if (n == 0)
         w.alpha += body.inverse_inertia * body.twist;
       const double push = body.inverse_mass * direction.lpNorm<1>() * w.push.lpNorm<1>();
-      w.ax_size += push;
-      w.ay_size += push;
+      w.a_size += Vec2::Constant(push);
       w.alpha_size += std::abs(body.inverse_inertia * body.twist);
     }
   }
@@ -99,7 +102,7 @@ void Flow::freeAcceleration(int n)
       if (index < 0)
         return;
       BodyWork& w = work_[index];
-      const Body& body = *body_[index];
+      const Body& body = *w.body;
       Vec2 torque = Vec2::Zero(), size = Vec2::Zero();
       for (int j = 0; j <= (w.rotating ? n : 0); ++j)
       {
@@ -109,8 +112,7 @@ void Flow::freeAcceleration(int n)
       }
       w.a += sign * body.inverse_mass * v.force;
       w.alpha += sign * body.inverse_inertia * torque.sum();
-      w.ax_size += std::abs(body.inverse_mass * v.force.x());
-      w.ay_size += std::abs(body.inverse_mass * v.force.y());
+      w.a_size += (body.inverse_mass * v.force).cwiseAbs();
       w.alpha_size += body.inverse_inertia * size.sum();
     };
     act(link.first, v.from, 1.0);
@@ -137,9 +139,9 @@ void Flow::placeRests(int n)
       r.arm[n] = r.a >= 0 ? turned(work_[r.a].direction[n], t.arm) : Vec2(Vec2::Zero());
       r.reach[n] = r.arm[n];
       if (r.a >= 0)
-        r.reach[n] += body_[r.a]->arc.order[n].place();
+        r.reach[n] += work_[r.a].body->arc.order[n].place();
       if (r.b >= 0)
-        r.reach[n] -= body_[r.b]->arc.order[n].place();
+        r.reach[n] -= work_[r.b].body->arc.order[n].place();
     }
     r.turned[n] = -perp(r.normal[n]);
   }
@@ -180,11 +182,10 @@ void Flow::contactKnown(int n)
       if (index < 0)
         return;
       BodyWork& w = work_[index];
-      const Body& body = *body_[index];
+      const Body& body = *w.body;
       w.a += sign * body.inverse_mass * sum;
       w.alpha += sign * body.inverse_inertia * torque;
-      w.ax_size += body.inverse_mass * size.sum();
-      w.ay_size += body.inverse_mass * size.sum();
+      w.a_size += Vec2::Constant(body.inverse_mass * size.sum());
       w.alpha_size += body.inverse_inertia * torque_size;
     };
     act(r.a, 1.0, torque.x(), torque_size.x());
@@ -200,7 +201,7 @@ void Flow::contactSolve(int n)
   const double divisor = 1.0 / ((n + 1) * (n + 2));
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
-    Arc& arc = body_[i]->arc;
+    Arc& arc = work_[i].body->arc;
     arc.order[n + 2] = { work_[i].a.x() * divisor, work_[i].a.y() * divisor, work_[i].alpha * divisor };
   }
   turn(n + 2);
@@ -229,11 +230,10 @@ void Flow::contactSolve(int n)
       if (index < 0)
         return;
       BodyWork& w = work_[index];
-      const Body& body = *body_[index];
+      const Body& body = *w.body;
       w.a += sign * body.inverse_mass * lambda * r.normal[0];
       w.alpha += sign * body.inverse_inertia * lambda * torque;
-      w.ax_size += body.inverse_mass * std::abs(lambda * r.normal[0].x());
-      w.ay_size += body.inverse_mass * std::abs(lambda * r.normal[0].y());
+      w.a_size += body.inverse_mass * (lambda * r.normal[0]).cwiseAbs();
       w.alpha_size += body.inverse_inertia * std::abs(lambda * torque);
     };
     act(r.a, 1.0, r.levers[0].x());
@@ -248,29 +248,25 @@ bool Flow::store(int n)
   constexpr double kLargest = 1e130;
   bool fits = true;
   const double divisor = 1.0 / ((n + 1) * (n + 2));
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  for (BodyWork& w : work_)
   {
-    const BodyWork& w = work_[i];
-    Arc& arc = body_[i]->arc;
-    arc.order[n + 2] = { cleaned(w.a.x(), w.ax_size) * divisor, cleaned(w.a.y(), w.ay_size) * divisor, cleaned(w.alpha, w.alpha_size) * divisor };
+    Coefficients& c = w.body->arc.order[n + 2];
+    c.x = cleaned(w.a.x(), w.a_size.x()) * divisor;
+    c.y = cleaned(w.a.y(), w.a_size.y()) * divisor;
+    c.angle = cleaned(w.alpha, w.alpha_size) * divisor;
+    w.rotating = w.rotating || c.angle != 0.0;
+    fits = fits && std::abs(c.x) < kLargest && std::abs(c.y) < kLargest && std::abs(c.angle) < kLargest;
   }
   if (rest_work_.empty())
     turn(n + 2);
-  for (std::size_t i = 0; i < work_.size(); ++i)
-  {
-    BodyWork& w = work_[i];
-    const double angle = body_[i]->arc.order[n + 2].angle;
-    w.rate[n + 2] = (n + 2) * angle;
-    w.direction[n + 2] = w.known + Vec2(0.0, angle);
-    w.rotating = w.rotating || angle != 0.0;
-    const Arc& arc = body_[i]->arc;
-    fits = fits && std::abs(arc.order[n + 2].x) < kLargest && std::abs(arc.order[n + 2].y) < kLargest && std::abs(angle) < kLargest;
-  }
+  else
+    for (BodyWork& w : work_)
+      turnTo(w, n + 2);
   placeRests(n + 2);
   if (n < 3 || fits)
     return true;
-  for (Body* body : body_)
-    body->arc.order[n + 2] = Coefficients();
+  for (BodyWork& w : work_)
+    w.body->arc.order[n + 2] = Coefficients();
   for (Rest& rest : *rests_)
     rest.force[n] = 0.0;
   return false;
@@ -284,10 +280,10 @@ bool Flow::endsEarly() const
     return false;
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
-    const Arc& arc = body_[i]->arc;
+    const Coefficients& c = work_[i].body->arc.order[2];
     if (work_[i].rotating && work_[i].trigonometric)
       return false;
-    if (field_->damping != 0.0 && (arc.order[2].x != 0.0 || arc.order[2].y != 0.0 || arc.order[2].angle != 0.0))
+    if (field_->damping != 0.0 && (c.x != 0.0 || c.y != 0.0 || c.angle != 0.0))
       return false;
   }
   for (const RestWork& r : rest_work_)

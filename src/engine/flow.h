@@ -59,6 +59,7 @@ public:
 private:
   struct BodyWork
   {
+    Body* body = nullptr;
     VectorSeries direction;  ///< cosine and sine of the angle since the start
     Series rate;             ///< n angle[n]
     bool rotating = false, trigonometric = false;
@@ -66,7 +67,8 @@ private:
     Vec2 push = Vec2::Zero();   ///< at the start, in the world
     Vec2 a = Vec2::Zero();
     double alpha = 0.0;
-    double ax_size = 0.0, ay_size = 0.0, alpha_size = 0.0;
+    Vec2 a_size = Vec2::Zero();  ///< sums of the absolute values of their terms
+    double alpha_size = 0.0;
   };
   struct RestWork
   {
@@ -87,6 +89,7 @@ private:
   void begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
              const std::vector<Member>& members, std::vector<Rest>& rests);
   void turn(int n);
+  static void turnTo(BodyWork& w, int n);
   void freeAcceleration(int n);
   void placeRests(int n);
   void findLevers(int n);
@@ -111,7 +114,6 @@ private:
 
   Room members_room_, rests_room_;
   const Field* field_ = nullptr;
-  std::vector<Body*> body_;
   std::vector<BodyWork> work_;
   std::vector<RestWork> rest_work_;
   std::vector<Rest>* rests_ = nullptr;

@@ -22,7 +22,8 @@ constexpr double kLongest = 1048576.0;
 /// Size of order n of an arc, m / s^n.
 double sizeOf(const Arc& arc, double radius, int n)
 {
-  return std::max({ std::abs(arc.order[n].x), std::abs(arc.order[n].y), radius * std::abs(arc.order[n].angle) });
+  const Coefficients& c = arc.order[n];
+  return std::max({ std::abs(c.x), std::abs(c.y), radius * std::abs(c.angle) });
 }
 
 /// Bounds of the third derivatives over the horizon.
@@ -33,8 +34,9 @@ void findJerk(Arc& arc)
   for (int n = 3; n <= arc.degree; ++n, power *= arc.horizon)
   {
     const double weight = n * (n - 1) * (n - 2) * power;
-    arc.jerk += weight * std::sqrt(arc.order[n].x * arc.order[n].x + arc.order[n].y * arc.order[n].y);
-    arc.angular_jerk += weight * std::abs(arc.order[n].angle);
+    const Coefficients& c = arc.order[n];
+    arc.jerk += weight * std::sqrt(c.x * c.x + c.y * c.y);
+    arc.angular_jerk += weight * std::abs(c.angle);
   }
 }
 }  // namespace
@@ -56,8 +58,8 @@ double Flow::horizon(int degree) const
     double share = 0.0;
     for (std::size_t i = 0; i < work_.size(); ++i)
     {
-      const Arc& arc = body_[i]->arc;
-      const double radius = body_[i]->shape.radius, size = std::max({ std::abs(arc.order[0].x), std::abs(arc.order[0].y), radius });
+      const Arc& arc = work_[i].body->arc;
+      const double radius = work_[i].body->shape.radius, size = std::max({ std::abs(arc.order[0].x), std::abs(arc.order[0].y), radius });
       share = std::max(share, sizeOf(arc, radius, n) / size);
       if (work_[i].trigonometric)
         share = std::max(share, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
@@ -81,12 +83,12 @@ double Flow::horizon(int degree) const
   double shares[] = { 0.0, 0.0 };
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
-    const Arc& arc = body_[i]->arc;
+    const Arc& arc = work_[i].body->arc;
     double scale = 0.0, power = 1.0, speed = 0.0, before = 0.0;
     for (int n = 1; n <= degree; ++n, power *= span)
     {
       before = speed;
-      speed = n * sizeOf(arc, body_[i]->shape.radius, n) * power;
+      speed = n * sizeOf(arc, work_[i].body->shape.radius, n) * power;
       scale = std::max(scale, speed);
     }
     if (scale > 0.0)
@@ -115,9 +117,9 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
     if (length[0] > 0.0)
       span = std::min(span, firstBelow(length, degree - 2, span, 0.0));
   }
-  for (Body* body : body_)
+  for (BodyWork& w : work_)
   {
-    Arc& arc = body->arc;
+    Arc& arc = w.body->arc;
     arc.degree = degree;
     while (arc.degree > 0 && arc.order[arc.degree].x == 0.0 && arc.order[arc.degree].y == 0.0 && arc.order[arc.degree].angle == 0.0)
       --arc.degree;
@@ -147,8 +149,8 @@ void Flow::findWorks(int degree, Works& works)
 {
   works.degree = 0;
   bool any = field_->damping > 0.0;
-  for (const Body* body : body_)
-    any = any || body->pushed();
+  for (const BodyWork& w : work_)
+    any = any || w.body->pushed();
   for (const LinkWork& link : links_)
     any = any || link.damping != 0.0;
   if (!any)
@@ -167,7 +169,7 @@ void Flow::findWorks(int degree, Works& works)
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     const BodyWork& w = work_[i];
-    const Body& body = *body_[i];
+    const Body& body = *w.body;
     for (int n = 0; n <= last; ++n)
     {
       rate[n] = (n + 1) * body.arc.order[n + 1].place();

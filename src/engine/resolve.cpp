@@ -31,28 +31,19 @@ void World::Engine::fetchShape(int body) const
   fetchLines(shape.faces.data(), shape.faces.data() + shape.faces.size());
 }
 
-bool World::Engine::isSeen(int body) const
-{
-  const int place = seen_as_[body];
-  return place < seen_count_ && seen_[place].body == body;
-}
-
-World::Engine::Seen& World::Engine::seen(int body, const Time& time)
+/// Has the body among those that are seen at this instant.
+void World::Engine::see(int body, const Time& time)
 {
   if (seen_at_ != time)
   {
     seen_count_ = 0;
     seen_at_ = time;
   }
-  if (!isSeen(body))
-  {
-    seen_as_[body] = seen_count_;
-    Seen& fresh = seen_[seen_count_++];
-    fresh.body = body;
-    fresh.now = bodies[body].at(time);
-    fresh.framed = false;
-  }
-  return seen_[seen_as_[body]];
+  seen_as_[body] = seen_count_;
+  Seen& fresh = seen_[seen_count_++];
+  fresh.body = body;
+  fresh.now = bodies[body].at(time);
+  fresh.framed = false;
 }
 
 /// The body's arc changes.
@@ -72,14 +63,10 @@ void World::Engine::forgetAll()
   seen_count_ = 0;
 }
 
-const Snapshot& World::Engine::snapshot(int body, const Time& time)
-{
-  return seen(body, time).now;
-}
-
 Frame World::Engine::frame(int body, const Time& time)
 {
-  Seen& it = seen(body, time);
+  snapshot(body, time);
+  Seen& it = seen_[seen_as_[body]];
   if (!it.framed)
   {
     it.cosine = std::cos(it.now.angle);

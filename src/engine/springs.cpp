@@ -49,7 +49,7 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
   };
   for (std::size_t i = 0; i < members.size(); ++i)
   {
-    const Body& body = *body_[i];
+    const Body& body = *work_[i].body;
     if (body.mouse.active)
     {
       LinkWork& w = add(body.mouse.stiffness, 0.0, body.mouse.damping);
@@ -92,7 +92,7 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
 void Flow::placeEnds(LinkWork& link, int n)
 {
   SpringSeries& v = link.series;
-  const auto placeOf = [&](int index) { return body_[index]->arc.order[n].place(); };
+  const auto placeOf = [&](int index) { return work_[index].body->arc.order[n].place(); };
   v.from[n] = turned(work_[link.first].direction[n], link.from);
   v.d[n] = placeOf(link.first) + v.from[n];
   if (link.second >= 0)
@@ -117,7 +117,7 @@ void Flow::springForce(LinkWork& link, int n)
   {
     if (n == 0)
     {
-      const Arc& arc = body_[link.first]->arc;
+      const Arc& arc = work_[link.first].body->arc;
       v.coincident = v.d[0].norm() <= kCancelled * (std::abs(arc.order[0].x) + std::abs(arc.order[0].y) + link.rest_length);
     }
     for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
