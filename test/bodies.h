@@ -50,10 +50,10 @@ inline void launch(Body& body, const Vec2& position, double angle = 0.0, const V
 inline Body block(const std::vector<Vec2>& vertices, double mass, double elasticity = 1.0)
 {
   Body body;
-  body.shape = makePolygon(vertices);
+  body.shape = std::make_shared<Polygon>(makePolygon(vertices));
   body.fixed = false;
   body.mass = mass;
-  body.inertia = mass * body.shape.gyration;
+  body.inertia = mass * body.shape->gyration;
   body.inverse_mass = 1.0 / mass;
   body.inverse_inertia = 1.0 / body.inertia;
   body.elasticity = elasticity;
@@ -64,7 +64,7 @@ inline Body block(const std::vector<Vec2>& vertices, double mass, double elastic
 inline Body wall(const Vec2& normal, double offset, double elasticity = 1.0)
 {
   Body body;
-  body.shape = makeHalfPlane(normal, offset);
+  body.shape = std::make_shared<Polygon>(makeHalfPlane(normal, offset));
   body.elasticity = elasticity;
   return body;
 }

@@ -15,7 +15,7 @@ constexpr double tolerance = 1e-6, resolution = 1e-14;
 double separationAt(const Body& a, const Body& b, const Time& time)
 {
   const Snapshot now_a = a.at(time), now_b = b.at(time);
-  return separation(a.shape, Frame(now_a.position, now_a.angle), b.shape, Frame(now_b.position, now_b.angle));
+  return separation(*a.shape, Frame(now_a.position, now_a.angle), *b.shape, Frame(now_b.position, now_b.angle));
 }
 
 /// What became of a pair that was watched until it met or until a time.
@@ -260,7 +260,7 @@ TEST(Detector, ApartPromisesNoMoreThanTheCirclesHold)
       const Time time = Time::fromSeconds(span * k / 40);
       const Vec2 at_a = a.at(time).position, at_b = b.at(time).position;
       const double gap =
-          a.shape.vertices.empty() ? at_b.y() - b.shape.radius : (at_b - at_a).norm() - a.shape.radius - b.shape.radius;
+          a.shape->vertices.empty() ? at_b.y() - b.shape->radius : (at_b - at_a).norm() - a.shape->radius - b.shape->radius;
       ASSERT_GT(gap, -rounding) << i;
     }
   }

@@ -74,8 +74,8 @@ public:
         {
           const Time time = now + 0.1 * k * (next - now);
           const Member a = memberAt(bodies[rest.touch.a], 0, time), b = memberAt(bodies[rest.touch.b], 1, time);
-          const Face& face = bodies[rest.touch.b].shape.faces[rest.touch.face];
-          const Vec2 vertex = a.frame.toWorld(bodies[rest.touch.a].shape.vertices[rest.touch.vertex]);
+          const Face& face = bodies[rest.touch.b].shape->faces[rest.touch.face];
+          const Vec2 vertex = a.frame.toWorld(bodies[rest.touch.a].shape->vertices[rest.touch.vertex]);
           worst_gap = std::max(worst_gap, std::abs(face.normal.dot(b.frame.toBody(vertex)) - face.offset));
         }
       now = next;

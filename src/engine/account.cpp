@@ -174,8 +174,8 @@ std::vector<ContactEvent> World::Engine::restingContacts() const
       contact.kind = ContactKind::Rest;
       contact.a = rest.touch.a;
       contact.b = rest.touch.b;
-      contact.point = frameAt(a, now).toWorld(a.shape.vertices[rest.touch.vertex]);
-      contact.normal = frameAt(b, now).rotate(b.shape.faces[rest.touch.face].normal);
+      contact.point = frameAt(a, now).toWorld(a.shape->vertices[rest.touch.vertex]);
+      contact.normal = frameAt(b, now).rotate(b.shape->faces[rest.touch.face].normal);
       contact.impulse = evaluate(rest.force, std::max(0, rest.degree - 2), rest.degree > 2 ? now - mover.arc.start : 0.0);
       result.push_back(contact);
     }
@@ -191,13 +191,13 @@ double World::Engine::overlap() const
       continue;
     const Body &a = bodies[pair.a], &b = bodies[pair.b];
     const Snapshot now_a = a.at(now), now_b = b.at(now);
-    if (!a.shape.vertices.empty() && !b.shape.vertices.empty())
+    if (!a.shape->vertices.empty() && !b.shape->vertices.empty())
     {
-      const double reach = a.shape.radius + b.shape.radius;
+      const double reach = a.shape->radius + b.shape->radius;
       if ((now_a.position - now_b.position).squaredNorm() > reach * reach)
         continue;
     }
-    deepest = std::max(deepest, -separation(a.shape, Frame(now_a.position, now_a.angle), b.shape, Frame(now_b.position, now_b.angle)));
+    deepest = std::max(deepest, -separation(*a.shape, Frame(now_a.position, now_a.angle), *b.shape, Frame(now_b.position, now_b.angle)));
   }
   return deepest;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "block_world/block.h"
@@ -65,14 +66,14 @@ struct MouseSpring
 /// longer than arithmetic.
 struct alignas(kCacheLine) Body
 {
-  Polygon shape;
+  std::shared_ptr<const Polygon> shape;  ///< of all bodies that look alike
   bool fixed = true;
   int island = -1;      ///< lowest index among the bodies that move as one with this one
   int first_pair = -1;  ///< of the list of pairs that this body is one of
+  int crowd = 0;        ///< to notice time standing still: events since crowd_start
   Cost cost;
-  std::int64_t crowd = 0;  ///< to notice time standing still: events since crowd_start
-  double inverse_mass = 0.0, inverse_inertia = 0.0;  ///< 0 for what cannot move
   Arc arc;
+  double inverse_mass = 0.0, inverse_inertia = 0.0;  ///< 0 for what cannot move
 
   std::string name;
   double mass = 0.0, inertia = 0.0;

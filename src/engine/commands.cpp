@@ -30,7 +30,7 @@ void World::Engine::pickNearest(SpringCommand& command, const Time& time) const
     const Snapshot now_i = bodies[i].at(time);
     const Frame frame_i(now_i.position, now_i.angle);
     const Vec2 target = frame_i.toBody(command.anchor);
-    const Vec2 point = nearestPoint(bodies[i].shape, target);
+    const Vec2 point = nearestPoint(*bodies[i].shape, target);
     const double distance = (point - target).norm();
     if (distance < least)
     {
@@ -49,7 +49,7 @@ bool World::Engine::overlaps(int body, const Frame& at, const Time& time, std::s
     if (static_cast<int>(i) == body)
       continue;
     const Snapshot other = bodies[i].at(time);
-    if (separation(bodies[body].shape, at, bodies[i].shape, Frame(other.position, other.angle)) <= -scene.tolerance)
+    if (separation(*bodies[body].shape, at, *bodies[i].shape, Frame(other.position, other.angle)) <= -scene.tolerance)
     {
       with = bodies[i].name;
       return true;
@@ -323,7 +323,7 @@ void World::Engine::set(const SetCommand& c)
     scene.blocks[0].mass = *c.mass;
     Body& body = bodies[0];
     body.mass = *c.mass;
-    body.inertia = body.mass * body.shape.gyration;
+    body.inertia = body.mass * body.shape->gyration;
     body.inverse_mass = 1.0 / body.mass;
     body.inverse_inertia = 1.0 / body.inertia;
   }

@@ -28,13 +28,13 @@ double Detector::apart(const Body& a, const Snapshot& now_a, const Body& b, cons
   const double jerk = a.arc.jerk + b.arc.jerk;
   double gap, speed, acceleration;
   bool certain_curvature = false;
-  if (a.shape.vertices.empty() || b.shape.vertices.empty())
+  if (a.shape->vertices.empty() || b.shape->vertices.empty())
   {
     // Height of the centre over the half-plane, which is exactly a polynomial of the arc's degree.
-    const bool wall_is_a = a.shape.vertices.empty();
-    const Face& wall = (wall_is_a ? a : b).shape.faces.front();
+    const bool wall_is_a = a.shape->vertices.empty();
+    const Face& wall = (wall_is_a ? a : b).shape->faces.front();
     const Snapshot& now = wall_is_a ? now_b : now_a;
-    gap = wall.normal.dot(now.position) - wall.offset - (wall_is_a ? b : a).shape.radius;
+    gap = wall.normal.dot(now.position) - wall.offset - (wall_is_a ? b : a).shape->radius;
     speed = wall.normal.dot(now.velocity);
     acceleration = wall.normal.dot(now.acceleration);
     certain_curvature = true;
@@ -44,7 +44,7 @@ double Detector::apart(const Body& a, const Snapshot& now_a, const Body& b, cons
     const Vec2 between = now_b.position - now_a.position;
     const Vec2 relative = now_b.velocity - now_a.velocity;
     const Vec2 relative_acceleration = now_b.acceleration - now_a.acceleration;
-    const double reach = a.shape.radius + b.shape.radius;
+    const double reach = a.shape->radius + b.shape->radius;
     const double square = between.squaredNorm();
     if (square <= reach * reach)
       return -1.0;
@@ -64,7 +64,7 @@ double Detector::apart(const Body& a, const Snapshot& now_a, const Body& b, cons
     speed = between.dot(relative) / distance;
     acceleration = -bound;  // distance'' >= -|relative acceleration|
   }
-  const double radius = std::min(a.shape.radius, b.shape.radius);
+  const double radius = std::min(a.shape->radius, b.shape->radius);
   if (gap < 0.02 * radius && !(certain_curvature && gap > 0.0 && firstZero(gap, speed, acceleration) == kNever && jerk == 0.0))
     return -1.0;
   if (jerk == 0.0)
@@ -109,7 +109,7 @@ double Detector::curvature(const View& f, const View& v, double horizon) const
   double w_v, alpha_v, w_f, alpha_f;
   spin(v, w_v, alpha_v);
   spin(f, w_f, alpha_f);
-  const double radius = v.body->shape.radius;
+  const double radius = v.body->shape->radius;
   double bound = a + (alpha_v + w_v * w_v) * radius;
   if (w_f > 0.0)
   {
@@ -218,11 +218,11 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
 
 Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, const View& f, const View& v, double horizon)
 {
-  const Face& face = f.body->shape.faces[index];
+  const Face& face = f.body->shape->faces[index];
   const Vec2 normal = f.frame.rotate(face.normal);
   const Vec2 between = v.now->position - f.now->position;
   const Vec2 relative = v.now->velocity - f.now->velocity;
-  const auto& vertices = v.body->shape.vertices;
+  const auto& vertices = v.body->shape->vertices;
   open_.clear();
   for (std::size_t k = 0; k < vertices.size(); ++k)
   {
@@ -271,7 +271,7 @@ bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon,
   for (Side& side : sides_)
   {
     const View& f = side.of_a ? a : b;
-    const double rate = f.frame.rotate(f.body->shape.faces[side.face].normal).dot(relative);
+    const double rate = f.frame.rotate(f.body->shape->faces[side.face].normal).dot(relative);
     side.rate = side.of_a ? rate : -rate;
     if (side.rate < 0.0 && side.gap > -side.rate * span)
     {
@@ -305,7 +305,7 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
   if (pair.face >= 0 && !straight)
   {
     const View &f = pair.face_of_a ? a : b, &v = pair.face_of_a ? b : a;
-    const double gap = faceGap(f.body->shape.faces[pair.face], f.frame, v.body->shape, v.frame);
+    const double gap = faceGap(f.body->shape->faces[pair.face], f.frame, *v.body->shape, v.frame);
     if (gap > tolerance_ && gap > 0.5 * pair.face_gap)
       return face(pair, pair.face_of_a, pair.face, f, v, horizon).span;
   }
@@ -313,9 +313,9 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
   for (int side = 0; side < 2; ++side)
   {
     const View &f = side == 0 ? a : b, &v = side == 0 ? b : a;
-    if (!v.body->shape.vertices.empty())
-      for (std::size_t i = 0; i < f.body->shape.faces.size(); ++i)
-        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(f.body->shape.faces[i], f.frame, v.body->shape, v.frame), 0.0 });
+    if (!v.body->shape->vertices.empty())
+      for (std::size_t i = 0; i < f.body->shape->faces.size(); ++i)
+        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(f.body->shape->faces[i], f.frame, *v.body->shape, v.frame), 0.0 });
   }
   const auto best = std::max_element(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.gap < q.gap; });
   pair.face_of_a = best->of_a;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <set>
 
 namespace block_world
 {
@@ -78,12 +80,12 @@ void World::Engine::buildBodies()
   {
     Body body;
     body.name = block.name;
-    body.shape = makePolygon(block.vertices);
+    body.shape = std::make_shared<Polygon>(makePolygon(block.vertices));
     body.fixed = block.fixed;
     if (!block.fixed)
     {
       body.mass = block.mass;
-      body.inertia = block.mass * body.shape.gyration;
+      body.inertia = block.mass * body.shape->gyration;
       body.inverse_mass = 1.0 / body.mass;
       body.inverse_inertia = 1.0 / body.inertia;
       body.thrusters = block.thrusters ? *block.thrusters : defaultThrusters(block.vertices, scene.thrust);
@@ -95,7 +97,7 @@ void World::Engine::buildBodies()
     body.crowd_start = now;
     body.elasticity = block.elasticity.value_or(scene.elasticity);
     body.arc.order[0] = { block.position.x(), block.position.y(), block.angle };
-    largest = std::max({ largest, std::abs(block.position.x()), std::abs(block.position.y()), body.shape.radius });
+    largest = std::max({ largest, std::abs(block.position.x()), std::abs(block.position.y()), body.shape->radius });
     bodies.push_back(body);
   }
   block_count = static_cast<int>(bodies.size());
@@ -105,7 +107,7 @@ void World::Engine::buildBodies()
     Body body;
     body.name = name;
     body.elasticity = scene.elasticity;
-    body.shape = makeHalfPlane(normal, normal.x() + normal.y() > 0.0 ? *at : -*at);
+    body.shape = std::make_shared<Polygon>(makeHalfPlane(normal, normal.x() + normal.y() > 0.0 ? *at : -*at));
     largest = std::max(largest, std::abs(*at));
     bodies.push_back(body);
   };
@@ -114,6 +116,19 @@ void World::Engine::buildBodies()
   wall("wall_bottom", scene.walls.bottom, Vec2(0, 1));
   wall("wall_top", scene.walls.top, Vec2(0, -1));
   resolution_ = 8.0 * (std::nextafter(largest, HUGE_VAL) - largest);
+  shareShapes();
+}
+
+/// Bodies of the same shape refer to one, which stays in the cache of the processor.
+void World::Engine::shareShapes()
+{
+  const auto byCoordinates = [](const Vec2& p, const Vec2& q) { return p.x() < q.x() || (p.x() == q.x() && p.y() < q.y()); };
+  const auto byVertices = [&](const auto& p, const auto& q) {
+    return std::lexicographical_compare(p->vertices.begin(), p->vertices.end(), q->vertices.begin(), q->vertices.end(), byCoordinates);
+  };
+  std::set<std::shared_ptr<const Polygon>, decltype(byVertices)> shapes(byVertices);
+  for (int i = 0; i < block_count; ++i)
+    bodies[i].shape = *shapes.insert(bodies[i].shape).first;
 }
 
 /// Sets the scene's states in motion at now, and begins a new account there.

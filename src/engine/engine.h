@@ -70,7 +70,7 @@ public:
   Statistics statistics;
   std::vector<int> islandOf(int body) const;
 
-  std::int64_t stall_after = 100000;  ///< events
+  int stall_after = 100000;  ///< events
 
 private:
   friend class World;
@@ -78,6 +78,7 @@ private:
   // engine.cpp: building and the main loop
   void build();
   void buildBodies();
+  void shareShapes();
   void start();
   void rebuild(const Time& time);
   void resolveAll(const Time& time);

@@ -59,7 +59,7 @@ double Flow::horizon(int degree) const
     for (std::size_t i = 0; i < work_.size(); ++i)
     {
       const Arc& arc = work_[i].body->arc;
-      const double radius = work_[i].body->shape.radius, size = std::max({ std::abs(arc.order[0].x), std::abs(arc.order[0].y), radius });
+      const double radius = work_[i].body->shape->radius, size = std::max({ std::abs(arc.order[0].x), std::abs(arc.order[0].y), radius });
       share = std::max(share, sizeOf(arc, radius, n) / size);
       if (work_[i].trigonometric)
         share = std::max(share, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
@@ -88,7 +88,7 @@ double Flow::horizon(int degree) const
     for (int n = 1; n <= degree; ++n, power *= span)
     {
       before = speed;
-      speed = n * sizeOf(arc, work_[i].body->shape.radius, n) * power;
+      speed = n * sizeOf(arc, work_[i].body->shape->radius, n) * power;
       scale = std::max(scale, speed);
     }
     if (scale > 0.0)
@@ -132,7 +132,7 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   {
     rest.degree = degree;
     rest.along[0] = rest.touch.along;
-    ends = ends || !std::isinf(bodies[rest.touch.b].shape.faces[rest.touch.face].length);
+    ends = ends || !std::isinf(bodies[rest.touch.b].shape->faces[rest.touch.face].length);
   }
   // The way along the face is perp(n).d, the torque on its body d x n.
   if (ends)

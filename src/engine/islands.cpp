@@ -173,7 +173,7 @@ bool World::Engine::isStill(const Island& island) const
       a = std::max(a, std::abs(rest.force[0]) * bodies[body].inverse_mass);
   return a > 0.0 && std::all_of(island.bodies.begin(), island.bodies.end(), [&](int body) {
     const Arc& arc = bodies[body].arc;
-    const double radius = bodies[body].shape.radius;
+    const double radius = bodies[body].shape->radius;
     const double speed = std::hypot(arc.order[1].x, arc.order[1].y) + radius * std::abs(arc.order[1].angle);
     const double acceleration = 2.0 * (std::hypot(arc.order[2].x, arc.order[2].y) + radius * std::abs(arc.order[2].angle));
     return speed <= 1e-12 * std::sqrt(a * radius) && acceleration <= 1e-12 * a;
@@ -209,7 +209,7 @@ void World::Engine::promiseIsland(int name, const Time& time)
   {
     if (rest.degree > 2)
       span = std::min(span, firstBelow(rest.force, rest.degree - 2, span, least));
-    const Face& face = bodies[rest.touch.b].shape.faces[rest.touch.face];
+    const Face& face = bodies[rest.touch.b].shape->faces[rest.touch.face];
     if (std::isinf(face.length))
       continue;
     // A vertex inside the face's ends leaves exactly at them; one that was let in a little outside has the shell to go.
@@ -245,7 +245,7 @@ void World::Engine::dissolve(int body, const Time& time)
 void World::Engine::endDecay(Member& m) const
 {
   constexpr double kDecayed = 64 * 2.220446049250313e-16;
-  const double radius = bodies[m.body].shape.radius, least = kDecayed * (m.velocity.norm() + radius * std::abs(m.omega));
+  const double radius = bodies[m.body].shape->radius, least = kDecayed * (m.velocity.norm() + radius * std::abs(m.omega));
   for (double* component : { &m.velocity.x(), &m.velocity.y() })
     if (std::abs(*component) <= least)
       *component = 0.0;
@@ -260,7 +260,7 @@ bool World::Engine::hasDrifted(Island& island, const Time& time)
   const auto member = [&](int index) -> const Member& { return index < 0 ? still : island_state_[index]; };
   double speed = 0.0;
   for (const Member& m : island_state_)
-    speed = std::max(speed, m.velocity.norm() + bodies[m.body].shape.radius * std::abs(m.omega));
+    speed = std::max(speed, m.velocity.norm() + bodies[m.body].shape->radius * std::abs(m.omega));
   return std::any_of(island.rests.begin(), island.rests.end(), [&](Rest& rest) {
     Touch& t = rest.touch;
     locate(t, bodies[t.a], frame(t.a, time), bodies[t.b], frame(t.b, time));

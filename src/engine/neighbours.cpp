@@ -10,7 +10,7 @@ void World::Engine::configureGrid()
 {
   std::vector<double> radii;
   for (const Body& body : bodies)
-    radii.push_back(body.shape.radius);
+    radii.push_back(body.shape->radius);
   grid_.configure(radii, scene.tolerance);
   pairs_.clear();
   free_pair_ = -1;
@@ -23,12 +23,12 @@ void World::Engine::configureGrid()
 bool World::Engine::nearWall(int body, int wall) const
 {
   const Grid::Box box = grid_.keeps(body);
-  const Face& face = bodies[wall].shape.faces.front();
+  const Face& face = bodies[wall].shape->faces.front();
   double lowest = -face.offset;
   for (int axis : { 0, 1 })
     if (face.normal[axis] != 0.0)
       lowest += face.normal[axis] * (face.normal[axis] > 0.0 ? box.low : box.high)[axis];
-  return lowest <= bodies[body].shape.radius + scene.tolerance;
+  return lowest <= bodies[body].shape->radius + scene.tolerance;
 }
 
 /// Whom a body may meet before it changes its cell, ascending.

@@ -26,7 +26,7 @@ void World::Engine::fetch(int body) const
 /// The same for what a close look needs.
 void World::Engine::fetchShape(int body) const
 {
-  const Polygon& shape = bodies[body].shape;
+  const Polygon& shape = *bodies[body].shape;
   fetchLines(shape.vertices.data(), shape.vertices.data() + shape.vertices.size());
   fetchLines(shape.faces.data(), shape.faces.data() + shape.faces.size());
 }
@@ -179,7 +179,7 @@ void World::Engine::join(int body, const Time& time)
 /// Whether the circles of a pair, or a circle and a half-plane, are as near as a touch has them.
 bool World::Engine::mayTouch(const Pair& pair, const Time& time)
 {
-  const Polygon &first = bodies[pair.a].shape, &second = bodies[pair.b].shape;
+  const Polygon &first = *bodies[pair.a].shape, &second = *bodies[pair.b].shape;
   const Vec2 &at_first = snapshot(pair.a, time).position, &at_second = snapshot(pair.b, time).position;
   const double shell = 0.5 * scene.tolerance;
   if (first.vertices.empty() || second.vertices.empty())

@@ -88,6 +88,7 @@ World::Engine::Engine(const std::string& saved, std::int64_t seconds_later)
   exchange(reader);
   if (reader.left() != 0)
     throw std::runtime_error("the saved state is longer than it should be");
+  shareShapes();
   clearWorkspace();
 }
 

@@ -136,6 +136,16 @@ void exchange(A& archive, Coefficients& coefficients)
   archive(x, y, angle);
 }
 
+/// Each body's on its own; of those that are read, World::Engine::shareShapes makes one where they are alike.
+template <class A>
+void exchange(A& archive, std::shared_ptr<const Polygon>& shape)
+{
+  Polygon polygon = shape ? *shape : Polygon();
+  archive(polygon);
+  if (!shape)
+    shape = std::make_shared<Polygon>(polygon);
+}
+
 template <class A>
 void exchange(A& archive, Arc& arc)
 {
@@ -167,9 +177,9 @@ void exchange(A& archive, Cost& cost)
 template <class A>
 void exchange(A& archive, Body& body)
 {
-  auto& [shape, fixed, island, first_pair, cost, crowd, inverse_mass, inverse_inertia, arc, name, mass, inertia, elasticity, crowd_start,
+  auto& [shape, fixed, island, first_pair, crowd, cost, arc, inverse_mass, inverse_inertia, name, mass, inertia, elasticity, crowd_start,
          crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs] = body;
-  archive(shape, fixed, island, first_pair, cost, crowd, inverse_mass, inverse_inertia, arc, name, mass, inertia, elasticity, crowd_start,
+  archive(shape, fixed, island, first_pair, crowd, cost, arc, inverse_mass, inverse_inertia, name, mass, inertia, elasticity, crowd_start,
           crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs);
 }
 

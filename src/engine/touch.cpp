@@ -7,8 +7,8 @@ namespace block_world
 {
 void locate(Touch& touch, const Body& a, const Frame& frame_a, const Body& b, const Frame& frame_b)
 {
-  const Face& face = b.shape.faces[touch.face];
-  touch.arm = frame_a.rotate(a.shape.vertices[touch.vertex]);
+  const Face& face = b.shape->faces[touch.face];
+  touch.arm = frame_a.rotate(a.shape->vertices[touch.vertex]);
   touch.reach = frame_a.position - frame_b.position + touch.arm;
   if (!touch.corner)
     touch.normal = frame_b.rotate(face.normal);
@@ -54,12 +54,12 @@ double contactGram(const Touch& p, const Touch& q, const std::vector<Member>& me
 void TouchFinder::collect(const Body& face_body, const Member& face_member, const Body& vertex_body,
                           const Member& vertex_member, bool of_first)
 {
-  if (vertex_body.shape.vertices.empty())
+  if (vertex_body.shape->vertices.empty())
     return;
-  const auto& faces = face_body.shape.faces;
+  const auto& faces = face_body.shape->faces;
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
-    const double gap = faceGap(faces[f], face_member.frame, vertex_body.shape, vertex_member.frame);
+    const double gap = faceGap(faces[f], face_member.frame, *vertex_body.shape, vertex_member.frame);
     if (!candidates_.empty() && gap < candidates_.front().gap - tolerance_)
       continue;
     const Candidate candidate{ of_first, static_cast<int>(f), face_member.frame.rotate(faces[f].normal), gap, -1 };
@@ -73,8 +73,8 @@ void TouchFinder::collect(const Body& face_body, const Member& face_member, cons
 void TouchFinder::gather(const Candidate& candidate, const Body& face_body, const Member& face_member,
                          const Body& vertex_body, const Member& vertex_member, std::vector<Touch>& touches) const
 {
-  const Face& face = face_body.shape.faces[candidate.face];
-  for (std::size_t k = 0; k < vertex_body.shape.vertices.size(); ++k)
+  const Face& face = face_body.shape->faces[candidate.face];
+  for (std::size_t k = 0; k < vertex_body.shape->vertices.size(); ++k)
   {
     Touch touch;
     touch.vertex = static_cast<int>(k);
@@ -97,7 +97,7 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
                        std::vector<Touch>& touches, double closed, double still, bool ties)
 {
   const auto speed = [](const Body& body, const Member& m) {
-    return m.velocity.norm() + (m.omega == 0.0 ? 0.0 : std::abs(m.omega) * body.shape.radius);
+    return m.velocity.norm() + (m.omega == 0.0 ? 0.0 : std::abs(m.omega) * body.shape->radius);
   };
   still = std::max(still, 1e-13 * (speed(body_a, a) + speed(body_b, b)));
   velocity_decided_ = false;
@@ -118,12 +118,12 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
   {
     Candidate& c = candidates_[i];
     const Vec2 outward = c.of_first ? c.normal : Vec2(-c.normal);
-    const Face& face = (c.of_first ? body_a : body_b).shape.faces[c.face];
+    const Face& face = (c.of_first ? body_a : body_b).shape->faces[c.face];
     for (std::size_t j = 0; j < i && c.cluster < 0; ++j)
     {
       const Candidate& other = candidates_[j];
       const Vec2 other_outward = other.of_first ? other.normal : Vec2(-other.normal);
-      const Face& other_face = (other.of_first ? body_a : body_b).shape.faces[other.face];
+      const Face& other_face = (other.of_first ? body_a : body_b).shape->faces[other.face];
       if (outward.dot(other_outward) > 0.0 &&
           std::abs(cross(outward, other_outward)) * std::min(face.length, other_face.length) <= 2.0 * tolerance)
         c.cluster = other.cluster;
@@ -197,7 +197,7 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
 
   // One touch of two that coincide, vertex on vertex, is enough: keep the one whose vertex lies within the face.
   const auto inside = [&](const Touch& t) {
-    const Face& face = (t.b == b.body ? body_b : body_a).shape.faces[t.face];
+    const Face& face = (t.b == b.body ? body_b : body_a).shape->faces[t.face];
     return std::min(t.along, face.length - t.along);
   };
   for (std::size_t i = first; i < touches.size(); ++i)

@@ -1,5 +1,8 @@
 #include "block_world/world.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "engine.h"
 
 namespace block_world
@@ -26,7 +29,7 @@ Time World::advance(Time target, std::int64_t max_events)
 
 void World::stallAfter(std::int64_t events)
 {
-  engine_->stall_after = events;
+  engine_->stall_after = static_cast<int>(std::min<std::int64_t>(events, std::numeric_limits<int>::max()));
 }
 
 Applied World::apply(const Command& command)
