@@ -227,6 +227,7 @@ Time World::Engine::advance(Time target, std::int64_t max_events)
     if (time > now)
       now = time;
     ++statistics.events;
+    fetchFor(promises_.second());
     keep(slot, now);
   }
   now = target;
@@ -266,8 +267,6 @@ void World::Engine::keep(int slot, const Time& time)
   {
     const int pair = slot - pairSlot(0);
     const int a = pairs_[pair].a, b = pairs_[pair].b;
-    fetch(a);
-    fetch(b);
     if (!pairs_[pair].contact_due)
     {
       kind_ = CostKind::Look;

@@ -146,6 +146,7 @@ private:
   void locateTouches();
   void settle(double paid);
   void fetch(int body) const;
+  void fetchFor(int slot) const;
   void fetchShape(int body) const;
   bool isSeen(int body) const
   {

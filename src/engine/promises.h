@@ -53,6 +53,13 @@ public:
   {
     return heap_.empty() ? 0 : heap_.front().slot;
   }
+  /// The slot of the next one after that; 0 where there is none.
+  int second() const
+  {
+    if (heap_.size() < 3)
+      return heap_.size() < 2 ? 0 : heap_[1].slot;
+    return heap_[heap_[2].before(heap_[1]) ? 2 : 1].slot;
+  }
   Time firstTime() const
   {
     return heap_.empty() ? Time::infinity() : heap_.front().time;

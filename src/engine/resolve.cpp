@@ -31,6 +31,19 @@ void World::Engine::fetchShape(int body) const
   fetchLines(shape.faces.data(), shape.faces.data() + shape.faces.size());
 }
 
+/// Has what a promise is about brought from memory before it comes due.
+void World::Engine::fetchFor(int slot) const
+{
+  if (slot >= pairSlot(0))
+  {
+    const Pair& pair = pairs_[slot - pairSlot(0)];
+    fetch(pair.a);
+    fetch(pair.b);
+  }
+  else if (slot >= cellSlot(0))
+    fetch(slot - cellSlot(0));
+}
+
 /// Has the body among those that are seen at this instant.
 void World::Engine::see(int body, const Time& time)
 {
