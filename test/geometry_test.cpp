@@ -102,8 +102,11 @@ TEST(Polygon, FacesPointOutwards)
   EXPECT_DOUBLE_EQ(polygon.faces[0].length, 3.0);
   EXPECT_DOUBLE_EQ(polygon.radius, std::sqrt(2.5));
   EXPECT_NEAR(polygon.gyration, 10.0 / 12.0, 1e-15);
-  for (const Face& face : polygon.faces)
-    EXPECT_NEAR(face.normal.dot(face.start + face.length * perp(face.normal)), face.offset, 1e-15);
+  for (std::size_t i = 0; i < 4; ++i)
+  {
+    const Face& face = polygon.faces[i];
+    EXPECT_NEAR(face.normal.dot(polygon.vertices[i] + face.length * perp(face.normal)), face.offset, 1e-15);
+  }
 }
 
 TEST(Frame, ThereAndBack)
@@ -170,9 +173,12 @@ TEST(NearestPoint, IsNoFartherThanAnyPointOfTheRim)
   {
     const Vec2 point(2.0 * std::cos(0.37 * i), 1.5 * std::sin(0.37 * i));
     double least = std::numeric_limits<double>::infinity();
-    for (const Face& face : polygon.faces)
+    for (std::size_t f = 0; f < polygon.faces.size(); ++f)
       for (int k = 0; k <= 1000; ++k)
-        least = std::min(least, (face.start + k / 1000.0 * face.length * perp(face.normal) - point).norm());
+      {
+        const Face& face = polygon.faces[f];
+        least = std::min(least, (polygon.vertices[f] + k / 1000.0 * face.length * perp(face.normal) - point).norm());
+      }
     const double found = (nearestPoint(polygon, point) - point).norm();
     EXPECT_LE(found, least + 1e-15);
     EXPECT_NEAR(found, least, 1e-5);

@@ -44,7 +44,6 @@ Polygon makePolygon(const std::vector<Vec2>& vertices)
     face.length = (q - p).norm();
     face.normal = -perp(q - p) / face.length;
     face.offset = face.normal.dot(p);
-    face.start = p;
     polygon.faces.push_back(face);
     polygon.radius = std::max(polygon.radius, p.norm());
   }
@@ -57,7 +56,6 @@ Polygon makeHalfPlane(const Vec2& normal, double offset)
   Face face;
   face.normal = normal;
   face.offset = offset;
-  face.start = normal * offset;
   face.length = std::numeric_limits<double>::infinity();
   polygon.faces.push_back(face);
   polygon.radius = std::numeric_limits<double>::infinity();
@@ -92,14 +90,15 @@ Vec2 nearestPoint(const Polygon& polygon, const Vec2& point)
   bool inside = true;
   Vec2 nearest = point;
   double least = std::numeric_limits<double>::infinity();
-  for (const Face& face : polygon.faces)
+  for (std::size_t i = 0; i < polygon.faces.size(); ++i)
   {
+    const Face& face = polygon.faces[i];
     if (face.normal.dot(point) <= face.offset)
       continue;
     inside = false;
-    const Vec2 tangent = perp(face.normal);
-    const double along = std::min(std::max(tangent.dot(point - face.start), 0.0), face.length);
-    const Vec2 candidate = face.start + along * tangent;
+    const Vec2 start = polygon.vertices[i], tangent = perp(face.normal);
+    const double along = std::min(std::max(tangent.dot(point - start), 0.0), face.length);
+    const Vec2 candidate = start + along * tangent;
     const double distance = (point - candidate).squaredNorm();
     if (distance < least)
     {

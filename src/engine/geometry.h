@@ -55,16 +55,16 @@ struct Frame
   }
 };
 
-/// One side of a polygon: the points p with normal.p = offset, from start over length along perp(normal).
+/// One side of a polygon: the points p with normal.p = offset, over length along perp(normal).
 struct Face
 {
   Vec2 normal;  ///< outward, unit length
   double offset = 0.0;
-  Vec2 start;
   double length = 0.0;  ///< infinite for a wall
 };
 
-/// A convex polygon about its centre of mass, counter-clockwise; or a half-plane, which has one face and no vertices.
+/// A convex polygon about its centre of mass, counter-clockwise; or a half-plane, which has one face and no vertices. A face begins at the vertex of
+/// its index.
 struct Polygon
 {
   std::vector<Vec2> vertices;

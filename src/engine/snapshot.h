@@ -118,8 +118,8 @@ void exchange(A& archive, Statistics& statistics)
 template <class A>
 void exchange(A& archive, Face& face)
 {
-  auto& [normal, offset, start, length] = face;
-  archive(normal, offset, start, length);
+  auto& [normal, offset, length] = face;
+  archive(normal, offset, length);
 }
 
 template <class A>

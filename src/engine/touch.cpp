@@ -13,7 +13,8 @@ void locate(Touch& touch, const Body& a, const Frame& frame_a, const Body& b, co
   if (!touch.corner)
     touch.normal = frame_b.rotate(face.normal);
   touch.gap = touch.normal.dot(touch.reach) - face.offset;
-  touch.along = perp(touch.normal).dot(touch.reach - frame_b.rotate(face.start));
+  const Vec2 start = std::isinf(face.length) ? Vec2(Vec2::Zero()) : frame_b.rotate(b.shape->vertices[touch.face]);
+  touch.along = perp(touch.normal).dot(touch.reach - start);
 }
 
 double normalVelocity(const Touch& touch, const Member& a, const Member& b)

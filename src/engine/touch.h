@@ -33,7 +33,7 @@ struct Touch
   Vec2 reach = Vec2::Zero();   ///< d
   double gap = 0.0;            ///< m
   double separation = 0.0;     ///< m, of the two bodies: more than the gap where another face parts them
-  double along = 0.0;          ///< m, from the start of the face
+  double along = 0.0;          ///< m, from the start of the face, of an endless one from the point nearest to the origin
   double elasticity = 1.0;
 
   double approach = 0.0;  ///< m/s, normal velocity before the event; negative = approaching
