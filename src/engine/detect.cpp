@@ -313,9 +313,10 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
   for (int side = 0; side < 2; ++side)
   {
     const View &f = side == 0 ? a : b, &v = side == 0 ? b : a;
-    if (!v.body->shape->vertices.empty())
-      for (std::size_t i = 0; i < f.body->shape->faces.size(); ++i)
-        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(f.body->shape->faces[i], f.frame, *v.body->shape, v.frame), 0.0 });
+    const Polygon &face_shape = *f.body->shape, &vertex_shape = *v.body->shape;
+    if (!vertex_shape.vertices.empty())
+      for (std::size_t i = 0; i < face_shape.faces.size(); ++i)
+        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(face_shape.faces[i], f.frame, vertex_shape, v.frame), 0.0 });
   }
   const auto best = std::max_element(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.gap < q.gap; });
   pair.face_of_a = best->of_a;

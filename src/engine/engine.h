@@ -131,7 +131,7 @@ private:
   {
     Snapshot now;
     double cosine = 1.0, sine = 0.0;
-    int body = -1;
+    int body = 0;  ///< ~body where its arc has changed since
     bool framed = false;
   };
   void resolve(const Time& time);
@@ -139,7 +139,7 @@ private:
   Member memberAt(int body, const Time& time);
   int memberOf(int body, const Time& time);
   bool mayTouch(const Pair& pair, const Time& time);
-  Member viewed(int body, const Time& time);
+  const Member& viewed(int body, const Time& time, Member& member);
   void findTouches(const Time& time, int round);
   void report(const Time& time, bool last);  // report.cpp, as is tell
   void tell(const Touch& touch, ContactKind kind, double impulse, const Time& time);
@@ -148,19 +148,17 @@ private:
   void fetch(int body) const;
   void fetchFor(int slot) const;
   void fetchShape(int body) const;
-  bool isSeen(int body) const
+  Seen& seen(int body, const Time& time)
   {
     const int place = seen_as_[body];
-    return place < seen_count_ && seen_[place].body == body;
+    return seen_at_ == time && place < seen_count_ && seen_[place].body == body ? seen_[place] : see(body, time);
   }
-  void see(int body, const Time& time);
+  Seen& see(int body, const Time& time);
   void forget(int body);
   void forgetAll();
   const Snapshot& snapshot(int body, const Time& time)
   {
-    if (seen_at_ != time || !isSeen(body))
-      see(body, time);
-    return seen_[seen_as_[body]].now;
+    return seen(body, time).now;
   }
   Frame frame(int body, const Time& time);
   void freeAcceleration(Member& member) const;

@@ -44,29 +44,30 @@ void World::Engine::fetchFor(int slot) const
     fetch(slot - cellSlot(0));
 }
 
-/// Has the body among those that are seen at this instant.
-void World::Engine::see(int body, const Time& time)
+/// The body among those that are seen at this instant, as its arc has it.
+World::Engine::Seen& World::Engine::see(int body, const Time& time)
 {
   if (seen_at_ != time)
   {
     seen_count_ = 0;
     seen_at_ = time;
   }
-  seen_as_[body] = seen_count_;
-  Seen& fresh = seen_[seen_count_++];
-  fresh.body = body;
-  fresh.now = bodies[body].at(time);
-  fresh.framed = false;
+  const int place = seen_as_[body];
+  if (!(place < seen_count_ && seen_[place].body == ~body))
+    seen_as_[body] = seen_count_++;
+  Seen& seen = seen_[seen_as_[body]];
+  seen.body = body;
+  seen.now = bodies[body].at(time);
+  seen.framed = false;
+  return seen;
 }
 
 /// The body's arc changes.
 void World::Engine::forget(int body)
 {
-  if (!isSeen(body))
-    return;
-  const Seen& last = seen_[--seen_count_];
-  seen_as_[last.body] = seen_as_[body];
-  seen_[seen_as_[body]] = last;
+  const int place = seen_as_[body];
+  if (place < seen_count_ && seen_[place].body == body)
+    seen_[place].body = ~body;
 }
 
 void World::Engine::forgetAll()
@@ -78,8 +79,7 @@ void World::Engine::forgetAll()
 
 Frame World::Engine::frame(int body, const Time& time)
 {
-  snapshot(body, time);
-  Seen& it = seen_[seen_as_[body]];
+  Seen& it = seen(body, time);
   if (!it.framed)
   {
     it.cosine = std::cos(it.now.angle);
@@ -166,7 +166,8 @@ int World::Engine::memberOf(int body, const Time& time)
 {
   if (member_of_[body] >= 0)
     return member_of_[body];
-  group_.members.push_back(viewed(body, time));
+  group_.members.push_back(memberAt(body, time));
+  group_.members.back().frame = frame(body, time);
   member_of_[body] = static_cast<int>(group_.members.size()) - 1;
   return member_of_[body];
 }
@@ -205,14 +206,14 @@ bool World::Engine::mayTouch(const Pair& pair, const Time& time)
   return !((at_first - at_second).squaredNorm() > reach * reach);
 }
 
-/// The body as the group has it, or else as its arc has it.
-Member World::Engine::viewed(int body, const Time& time)
+/// The body as the group has it, or else as its arc has it, which is put into the member given.
+const Member& World::Engine::viewed(int body, const Time& time, Member& member)
 {
   if (member_of_[body] >= 0)
     return group_.members[member_of_[body]];
-  Member m = memberAt(body, time);
-  m.frame = frame(body, time);
-  return m;
+  member = memberAt(body, time);
+  member.frame = frame(body, time);
+  return member;
 }
 
 /// All touches of the group's bodies; who touches them joins the group with its island.
@@ -238,7 +239,8 @@ void World::Engine::findTouches(const Time& time, int round)
       if (!mayTouch(pair, time))
         continue;
       const std::size_t before = group_.touches.size();
-      finder_.find(bodies[pair.a], viewed(pair.a, time), bodies[pair.b], viewed(pair.b, time), scene.tolerance, group_.touches,
+      Member a, b;
+      finder_.find(bodies[pair.a], viewed(pair.a, time, a), bodies[pair.b], viewed(pair.b, time, b), scene.tolerance, group_.touches,
                    2.0 * detector_.guard(), group_.noise(), round > 0);
       velocity_decided_ = velocity_decided_ || finder_.velocityDecided();
       if (group_.touches.size() == before)

@@ -55,12 +55,13 @@ double contactGram(const Touch& p, const Touch& q, const std::vector<Member>& me
 void TouchFinder::collect(const Body& face_body, const Member& face_member, const Body& vertex_body,
                           const Member& vertex_member, bool of_first)
 {
-  if (vertex_body.shape->vertices.empty())
+  const Polygon& vertex_shape = *vertex_body.shape;
+  if (vertex_shape.vertices.empty())
     return;
   const auto& faces = face_body.shape->faces;
   for (std::size_t f = 0; f < faces.size(); ++f)
   {
-    const double gap = faceGap(faces[f], face_member.frame, *vertex_body.shape, vertex_member.frame);
+    const double gap = faceGap(faces[f], face_member.frame, vertex_shape, vertex_member.frame);
     if (!candidates_.empty() && gap < candidates_.front().gap - tolerance_)
       continue;
     const Candidate candidate{ of_first, static_cast<int>(f), face_member.frame.rotate(faces[f].normal), gap, -1 };
