@@ -62,8 +62,8 @@ struct MouseSpring
   Time until = Time::infinity();
 };
 
-/// A block, or a wall (a half-plane without vertices), with everything that acts on it. First what any look at it needs: in a crowd, memory takes
-/// longer than arithmetic.
+/// A block, or a wall (a half-plane without vertices), with everything that acts on it. First what any look at it needs, after its arc what an event
+/// does: in a crowd, memory takes longer than arithmetic.
 struct alignas(kCacheLine) Body
 {
   std::shared_ptr<const Polygon> shape;  ///< of all bodies that look alike
@@ -74,10 +74,14 @@ struct alignas(kCacheLine) Body
   Cost cost;
   Arc arc;
   double inverse_mass = 0.0, inverse_inertia = 0.0;  ///< 0 for what cannot move
+  Vec2 push = Vec2::Zero();                          ///< thrusters and wrench together, body axes
+  double twist = 0.0;                                ///< and their torque
+  std::vector<int> springs;                          ///< scene springs with an end on this body
+  double elasticity = 1.0;
+  MouseSpring mouse;
 
   std::string name;
   double mass = 0.0, inertia = 0.0;
-  double elasticity = 1.0;
   Time crowd_start;
   Cost crowd_cost;  ///< then
 
@@ -86,10 +90,6 @@ struct alignas(kCacheLine) Body
   Time thrust_until = Time::infinity();
   Vec2 wrench_force = Vec2::Zero();  ///< body axes
   double wrench_torque = 0.0;
-  Vec2 push = Vec2::Zero();  ///< thrusters and wrench together, body axes
-  double twist = 0.0;        ///< and their torque
-  MouseSpring mouse;
-  std::vector<int> springs;  ///< scene springs with an end on this body
 
   bool pushed() const
   {

@@ -177,10 +177,10 @@ void exchange(A& archive, Cost& cost)
 template <class A>
 void exchange(A& archive, Body& body)
 {
-  auto& [shape, fixed, island, first_pair, crowd, cost, arc, inverse_mass, inverse_inertia, name, mass, inertia, elasticity, crowd_start,
-         crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs] = body;
-  archive(shape, fixed, island, first_pair, crowd, cost, arc, inverse_mass, inverse_inertia, name, mass, inertia, elasticity, crowd_start,
-          crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque, push, twist, mouse, springs);
+  auto& [shape, fixed, island, first_pair, crowd, cost, arc, inverse_mass, inverse_inertia, push, twist, springs, elasticity, mouse, name, mass,
+         inertia, crowd_start, crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque] = body;
+  archive(shape, fixed, island, first_pair, crowd, cost, arc, inverse_mass, inverse_inertia, push, twist, springs, elasticity, mouse, name, mass,
+          inertia, crowd_start, crowd_cost, thrusters, levels, thrust_until, wrench_force, wrench_torque);
 }
 
 template <class A>
