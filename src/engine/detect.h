@@ -87,6 +87,8 @@ struct alignas(kCacheLine) Pair
   }
 };
 
+static_assert(sizeof(Pair) == kCacheLine, "a pair is a line of the cache");
+
 /// One body as the detector sees it at an instant.
 struct View
 {

@@ -72,7 +72,7 @@ std::size_t Grid::block(int level, const Cell& cell) const
 
 void Grid::link(int entry)
 {
-  int& first = blocks_[block(entries_[entry].level, entries_[entry].cell)].head(entries_[entry].cell);
+  int& first = blocks_[block(entries_[entry].level, entries_[entry].cell)].heads[within(entries_[entry].cell)];
   entries_[entry].previous = -1;
   entries_[entry].next = first;
   if (first >= 0)
@@ -86,7 +86,7 @@ void Grid::unlink(int entry)
   if (e.previous >= 0)
     entries_[e.previous].next = e.next;
   else
-    blocks_[block(e.level, e.cell)].head(e.cell) = e.next;
+    blocks_[block(e.level, e.cell)].heads[within(e.cell)] = e.next;
   if (e.next >= 0)
     entries_[e.next].previous = e.previous;
 }
@@ -132,7 +132,7 @@ void Grid::neighbours(int body, std::vector<int>& found) const
       {
         const Cell& centre = cell(body, level);
         const Cell wanted{ centre.x + dx, centre.y + dy };
-        for (int entry = blocks_[block(level, wanted)].head(wanted); entry >= 0; entry = entries_[entry].next)
+        for (int entry = blocks_[block(level, wanted)].heads[within(wanted)]; entry >= 0; entry = entries_[entry].next)
         {
           const int other = entries_[entry].body;
           // On a coarser level only those that live there: with the others this body meets on a finer one.

@@ -96,14 +96,6 @@ private:
   struct alignas(kCacheLine) Block
   {
     std::array<int, 16> heads;
-    int& head(const Cell& cell)
-    {
-      return heads[static_cast<std::size_t>(4 * (cell.y & 3) + (cell.x & 3))];
-    }
-    int head(const Cell& cell) const
-    {
-      return heads[static_cast<std::size_t>(4 * (cell.y & 3) + (cell.x & 3))];
-    }
     template <class A>
     void exchange(A& archive)
     {
@@ -116,6 +108,10 @@ private:
     return entries_[homes_[body].first + level - homes_[body].level].cell;
   }
   std::size_t block(int level, const Cell& cell) const;
+  static std::size_t within(const Cell& cell)
+  {
+    return static_cast<std::size_t>(4 * (cell.y & 3) + (cell.x & 3));
+  }
   void link(int entry);
   void unlink(int entry);
 
