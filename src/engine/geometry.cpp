@@ -35,6 +35,7 @@ Polygon makePolygon(const std::vector<Vec2>& vertices)
 {
   Polygon polygon;
   polygon.vertices = vertices;
+  polygon.faces.reserve(vertices.size());
   polygon.gyration = areaMoments(vertices).gyration;
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {

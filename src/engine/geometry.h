@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "room.h"
+
 namespace block_world
 {
 using Vec2 = Eigen::Vector2d;
@@ -65,7 +67,7 @@ struct Face
 
 /// A convex polygon about its centre of mass, counter-clockwise; or a half-plane, which has one face and no vertices. A face begins at the vertex of
 /// its index.
-struct Polygon
+struct alignas(kCacheLine) Polygon
 {
   std::vector<Vec2> vertices;
   std::vector<Face> faces;
