@@ -146,7 +146,7 @@ void Complementarity::refactor(int from)
   }
 }
 
-/// x = -A_PP^-1 b_P, with one step of iterative refinement.
+/// x = -A_PP^-1 b_P.
 void Complementarity::solvePassive(std::vector<double>& x)
 {
   const std::size_t n = passive_.size();
@@ -154,8 +154,14 @@ void Complementarity::solvePassive(std::vector<double>& x)
   for (std::size_t k = 0; k < n; ++k)
     x[k] = -(*b_)[passive_[k]];
   factor_.solve(x.data());
-  if (!factor_.doubtful())
-    return;
+  if (factor_.doubtful())
+    improve(x);
+}
+
+/// One step of iterative refinement, x - A_PP^-1 (A_PP x + b_P).
+void Complementarity::improve(std::vector<double>& x)
+{
+  const std::size_t n = passive_.size();
   residual_.resize(n);
   for (std::size_t k = 0; k < n; ++k)
   {
@@ -167,6 +173,18 @@ void Complementarity::solvePassive(std::vector<double>& x)
   factor_.solve(residual_.data());
   for (std::size_t k = 0; k < n; ++k)
     x[k] += residual_[k];
+}
+
+void Complementarity::refine()
+{
+  if (passive_.size() < 2)
+    return;
+  x_.resize(passive_.size());
+  for (std::size_t k = 0; k < passive_.size(); ++k)
+    x_[k] = l_[passive_[k]];
+  improve(x_);
+  for (std::size_t k = 0; k < passive_.size(); ++k)
+    l_[passive_[k]] = std::max(0.0, x_[k]);
 }
 
 /// Moves l towards the minimum over the passive set until that minimum is positive, dropping what reaches zero.

@@ -109,6 +109,9 @@ public:
   /// negative.
   void solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Cholesky& held, double noise);
 
+  /// The last digits of l after a solve without held rows.
+  void refine();
+
   /// l, one value per row of the last solve.
   const std::vector<double>& value() const
   {
@@ -131,6 +134,7 @@ private:
   void undo(int entered);
   void refactor(int from);
   void solvePassive(std::vector<double>& x);
+  void improve(std::vector<double>& x);
   bool rowOf(int position, int candidate);
 
   Room room_;

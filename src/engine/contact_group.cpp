@@ -118,6 +118,7 @@ void ContactGroup::reflect(const std::vector<int>& rows)
     b_.push_back(velocityOf(i));
   }
   solver_.solve(gram_, rows, b_, guess_);
+  solver_.refine();  // elastic impacts keep their energy to rounding, however many there are
   impulses_ = solver_.value();
   const double rebound = shareOfRebound(rows);
   for (std::size_t k = 0; k < rows.size(); ++k)
