@@ -36,10 +36,16 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
     body.arc.y[1] = m.velocity.y();
     body.arc.angle[1] = m.omega;
     BodyWork& w = work_[i];
+    w.inverse_mass = body.inverse_mass;
+    w.inverse_inertia = body.inverse_inertia;
+    w.place[0] = m.frame.position;
+    w.place[1] = m.velocity;
     w.direction[0] = Vec2(1.0, 0.0);
     w.push = m.frame.rotate(body.push);
+    w.direction[1] = Vec2(0.0, m.omega);
+    w.rate[1] = Vec2::Constant(m.omega);
     w.trigonometric = body.pushed() || body.sprung();
-    w.rotating = false;
+    w.rotating = m.omega != 0.0;
   }
   rests_ = &rests;
   rest_work_.resize(rests.size());
@@ -55,44 +61,32 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
   gatherLinks(bodies, links, members);
 }
 
-/// Directions of order n from the angles up to order n: with w the rate of the angle, direction' = w perp(direction).
+/// Directions of order n from the angles below order n: with w the rate of the angle, direction' = w perp(direction).
 void Flow::turn(int n)
 {
-  for (std::size_t i = 0; i < work_.size(); ++i)
-  {
-    BodyWork& w = work_[i];
-    if (!w.trigonometric)
-      continue;
-    const double angle = body_[i]->arc.angle[n];
-    w.rate[n] = n * angle;
-    w.known = w.rotating ? Vec2(perp(cauchy(w.rate, w.direction, n, 1, n - 1)) / n) : Vec2(Vec2::Zero());
-    w.direction[n] = w.known + Vec2(0.0, angle);
-  }
+  const double share = 1.0 / n;
+  for (BodyWork& w : work_)
+    w.known = w.trigonometric && w.rotating ? Vec2(share * perp(products(w.rate, w.direction, n, 1, n - 1))) : Vec2(Vec2::Zero());
 }
 
-/// Accelerations of order n by everything but contact; sizes hold the sums of the absolute values of the terms.
+/// Accelerations of order n by everything but contact.
 void Flow::freeAcceleration(int n)
 {
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     BodyWork& w = work_[i];
     const Body& body = *body_[i];
-    const double k = field_->damping * body.inverse_mass * (n + 1);
-    w.a = Vec2(-k * body.arc.x[n + 1], -k * body.arc.y[n + 1] - (n == 0 ? field_->gravity : 0.0));
-    w.alpha = -field_->rotational_damping * body.inverse_inertia * (n + 1) * body.arc.angle[n + 1];
-    w.ax_size = std::abs(w.a.x());
-    w.ay_size = std::abs(w.a.y());
+    w.a = -(n + 1) * field_->damping * w.inverse_mass * w.place[n + 1];
+    if (n == 0)
+      w.a.y() -= field_->gravity;
+    w.alpha = -field_->rotational_damping * w.inverse_inertia * w.rate[n + 1].x();
+    w.a_size = w.a.cwiseAbs();
     w.alpha_size = std::abs(w.alpha);
     if (body.pushed())
     {
       const Vec2& direction = w.direction[n];
-      w.a += body.inverse_mass * turned(direction, w.push);
-      if (n == 0)
-        w.alpha += body.inverse_inertia * body.twist;
-      const double push = body.inverse_mass * direction.lpNorm<1>() * w.push.lpNorm<1>();
-      w.ax_size += push;
-      w.ay_size += push;
-      w.alpha_size += std::abs(body.inverse_inertia * body.twist);
+      const double twist = n == 0 ? body.twist : 0.0;
+      w.act(turned(direction, w.push), Vec2::Constant(direction.lpNorm<1>() * w.push.lpNorm<1>()), twist, std::abs(twist));
     }
   }
   for (LinkWork& link : links_)
@@ -103,19 +97,8 @@ void Flow::freeAcceleration(int n)
       if (index < 0)
         return;
       BodyWork& w = work_[index];
-      const Body& body = *body_[index];
-      Vec2 torque = Vec2::Zero(), size = Vec2::Zero();
-      for (int j = 0; j <= (w.rotating ? n : 0); ++j)
-      {
-        const Vec2 part = arm[j].cwiseProduct(v.turned[n - j]);
-        torque += part;
-        size += part.cwiseAbs();
-      }
-      w.a += sign * body.inverse_mass * v.force;
-      w.alpha += sign * body.inverse_inertia * torque.sum();
-      w.ax_size += std::abs(body.inverse_mass * v.force.x());
-      w.ay_size += std::abs(body.inverse_mass * v.force.y());
-      w.alpha_size += body.inverse_inertia * size.sum();
+      const SizedSum torque = sizedProducts(arm, v.turned, n, 0, w.rotating ? n : 0);
+      w.act(sign * v.force, v.force.cwiseAbs(), sign * torque.sum.sum(), torque.size.sum());
     };
     act(link.first, v.from, 1.0);
     act(link.second, v.to, -1.0);
@@ -134,6 +117,7 @@ void Flow::placeRests(int n)
       r.normal[0] = t.normal;
       r.arm[0] = t.arm;
       r.reach[0] = t.reach;
+      r.along = Vec2(t.normal.dot(t.arm), t.normal.dot(t.reach));
     }
     else
     {
@@ -141,9 +125,9 @@ void Flow::placeRests(int n)
       r.arm[n] = r.a >= 0 ? turned(work_[r.a].direction[n], t.arm) : Vec2(Vec2::Zero());
       r.reach[n] = r.arm[n];
       if (r.a >= 0)
-        r.reach[n] += Vec2(body_[r.a]->arc.x[n], body_[r.a]->arc.y[n]);
+        r.reach[n] += work_[r.a].place[n];
       if (r.b >= 0)
-        r.reach[n] -= Vec2(body_[r.b]->arc.x[n], body_[r.b]->arc.y[n]);
+        r.reach[n] -= work_[r.b].place[n];
     }
     r.turned[n] = -perp(r.normal[n]);
   }
@@ -159,91 +143,73 @@ void Flow::findLevers(int n)
   }
 }
 
+/// A rest's force acts on both of its bodies, with its torques on them.
+void Flow::push(const RestWork& rest, const Vec2& force, const Vec2& force_size, const Vec2& torque, const Vec2& torque_size)
+{
+  if (rest.a >= 0)
+    work_[rest.a].act(force, force_size, torque.x(), torque_size.x());
+  if (rest.b >= 0)
+    work_[rest.b].act(-force, force_size, -torque.y(), torque_size.y());
+}
+
 /// Contact forces of the orders below n, whose normals and levers turn: their part of order n.
 void Flow::contactKnown(int n)
 {
   findLevers(n);
-  for (std::size_t i = 0; i < rest_work_.size(); ++i)
+  for (const RestWork& r : rest_work_)
   {
-    const RestWork& r = rest_work_[i];
-    const Series& force = (*rests_)[i].force;
-    Vec2 sum = Vec2::Zero(), size = Vec2::Zero(), torque = Vec2::Zero(), torque_size = Vec2::Zero();
-    for (int j = 0; j < n; ++j)
-    {
-      const Vec2 part = force[j] * r.levers[n - j];
-      torque += part;
-      torque_size += part.cwiseAbs();
-    }
-    for (int j = turns(r) ? 0 : n; j < n; ++j)
-    {
-      const Vec2 part = force[j] * r.normal[n - j];
-      sum += part;
-      size += part.cwiseAbs();
-    }
-    const auto act = [&](int index, double sign, double torque, double torque_size) {
-      if (index < 0)
-        return;
-      BodyWork& w = work_[index];
-      const Body& body = *body_[index];
-      w.a += sign * body.inverse_mass * sum;
-      w.alpha += sign * body.inverse_inertia * torque;
-      w.ax_size += body.inverse_mass * size.sum();
-      w.ay_size += body.inverse_mass * size.sum();
-      w.alpha_size += body.inverse_inertia * torque_size;
-    };
-    act(r.a, 1.0, torque.x(), torque_size.x());
-    act(r.b, -1.0, torque.y(), torque_size.y());
+    const SizedSum torque = sizedProducts(r.force, r.levers, n, 0, n - 1);
+    const SizedSum force = sizedProducts(r.force, r.normal, n, turns(r) ? 0 : n, n - 1);
+    push(r, force.sum, Vec2::Constant(force.size.sum()), torque.sum, torque.size);
   }
 }
 
-/// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish:
-/// A lambda_n = -(n+1)(n+2) g_{n+2}, with g_{n+2} computed from the accelerations known so far.
+/// (n + 1)(n + 2) times the gap's coefficient of order n + 2, from the accelerations known so far: J q'' and what the turning of arm and normal adds,
+/// of which the lower orders decide all but the angles' coefficients of this order, which are in J q''.
+double Flow::gapAcceleration(const RestWork& r, int n) const
+{
+  const double factor = (n + 1) * (n + 2);
+  double g = turns(r) ? factor * cauchy(r.normal, r.reach, n + 2, 1, n + 1) : 0.0;
+  if (r.a >= 0)
+  {
+    const BodyWork& w = work_[r.a];
+    g += r.normal[0].dot(w.a) + r.levers[0].x() * (w.alpha + factor * w.known.y()) + factor * w.known.x() * r.along.x();
+  }
+  if (r.b >= 0)
+  {
+    const BodyWork& w = work_[r.b];
+    g += -r.normal[0].dot(w.a) - r.levers[0].y() * (w.alpha + factor * w.known.y()) + factor * w.known.x() * r.along.y();
+  }
+  return g;
+}
+
+/// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish: A lambda_n = -(n+1)(n+2) g_{n+2}.
 void Flow::contactSolve(int n)
 {
   const int m = static_cast<int>(rest_work_.size());
-  const double divisor = 1.0 / ((n + 1) * (n + 2));
-  for (std::size_t i = 0; i < work_.size(); ++i)
-  {
-    Arc& arc = body_[i]->arc;
-    arc.x[n + 2] = work_[i].a.x() * divisor;
-    arc.y[n + 2] = work_[i].a.y() * divisor;
-    arc.angle[n + 2] = work_[i].alpha * divisor;
-  }
-  turn(n + 2);
-  placeRests(n + 2);
   rhs_.resize(m);
   for (int i = 0; i < m; ++i)
-  {
-    const RestWork& r = rest_work_[i];
-    double g = r.normal[0].dot(r.reach[n + 2]) + r.normal[n + 2].dot(r.reach[0]);
-    if (turns(r))
-      g += cauchy(r.normal, r.reach, n + 2, 1, n + 1);
-    rhs_[i] = -g / divisor;
-  }
+    rhs_[i] = -gapAcceleration(rest_work_[i], n);
   residual_ = rhs_;
   factor_.solve(rhs_.data());
-  for (int i = 0; i < m; ++i)
-    for (int j = 0; j < m; ++j)
-      residual_[i] -= gram_(i, j) * rhs_[j];
-  factor_.solve(residual_.data());
+  // One step of iterative refinement, which a single equation has no need of.
+  if (m > 1)
+  {
+    for (int i = 0; i < m; ++i)
+      for (int j = 0; j < m; ++j)
+        residual_[i] -= gram_(i, j) * rhs_[j];
+    factor_.solve(residual_.data());
+    for (int i = 0; i < m; ++i)
+      rhs_[i] += residual_[i];
+  }
   for (int i = 0; i < m; ++i)
   {
-    const double lambda = rhs_[i] + residual_[i];
+    RestWork& r = rest_work_[i];
+    const double lambda = rhs_[i];
     (*rests_)[i].force[n] = lambda;
-    const RestWork& r = rest_work_[i];
-    const auto act = [&](int index, double sign, double torque) {
-      if (index < 0)
-        return;
-      BodyWork& w = work_[index];
-      const Body& body = *body_[index];
-      w.a += sign * body.inverse_mass * lambda * r.normal[0];
-      w.alpha += sign * body.inverse_inertia * lambda * torque;
-      w.ax_size += body.inverse_mass * std::abs(lambda * r.normal[0].x());
-      w.ay_size += body.inverse_mass * std::abs(lambda * r.normal[0].y());
-      w.alpha_size += body.inverse_inertia * std::abs(lambda * torque);
-    };
-    act(r.a, 1.0, r.levers[0].x());
-    act(r.b, -1.0, r.levers[0].y());
+    r.force[n] = Vec2::Constant(lambda);
+    const Vec2 force = lambda * r.normal[0], torque = lambda * r.levers[0];
+    push(r, force, force.cwiseAbs(), torque, torque.cwiseAbs());
   }
 }
 
@@ -256,23 +222,18 @@ bool Flow::store(int n)
   const double divisor = 1.0 / ((n + 1) * (n + 2));
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
-    const BodyWork& w = work_[i];
-    Arc& arc = body_[i]->arc;
-    arc.x[n + 2] = cleaned(w.a.x(), w.ax_size) * divisor;
-    arc.y[n + 2] = cleaned(w.a.y(), w.ay_size) * divisor;
-    arc.angle[n + 2] = cleaned(w.alpha, w.alpha_size) * divisor;
-  }
-  if (rest_work_.empty())
-    turn(n + 2);
-  for (std::size_t i = 0; i < work_.size(); ++i)
-  {
     BodyWork& w = work_[i];
-    const double angle = body_[i]->arc.angle[n + 2];
-    w.rate[n + 2] = (n + 2) * angle;
+    Arc& arc = body_[i]->arc;
+    const double x = cleaned(w.a.x(), w.a_size.x()) * divisor, y = cleaned(w.a.y(), w.a_size.y()) * divisor;
+    const double angle = cleaned(w.alpha, w.alpha_size) * divisor;
+    arc.x[n + 2] = x;
+    arc.y[n + 2] = y;
+    arc.angle[n + 2] = angle;
+    w.place[n + 2] = Vec2(x, y);
+    w.rate[n + 2] = Vec2::Constant((n + 2) * angle);
     w.direction[n + 2] = w.known + Vec2(0.0, angle);
     w.rotating = w.rotating || angle != 0.0;
-    const Arc& arc = body_[i]->arc;
-    fits = fits && std::abs(arc.x[n + 2]) < kLargest && std::abs(arc.y[n + 2]) < kLargest && std::abs(angle) < kLargest;
+    fits = fits && std::abs(x) < kLargest && std::abs(y) < kLargest && std::abs(angle) < kLargest;
   }
   placeRests(n + 2);
   if (n < 3 || fits)
@@ -323,14 +284,12 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
     }
     placeRests(0);
   }
-  turn(1);
-  for (std::size_t i = 0; i < work_.size(); ++i)
-    work_[i].rotating = members[i].omega != 0.0;
   placeRests(1);
   int degree = order;
   for (int n = 0; n + 2 <= order; ++n)
   {
     freeAcceleration(n);
+    turn(n + 2);
     if (m > 0)
     {
       contactKnown(n);

@@ -28,21 +28,22 @@ struct Works
   int degree = 0;
 };
 
-/// Points fixed in two bodies (or one in the world) as series: what a spring needs along an arc.
+/// Points fixed in two bodies (or one in the world) as series: what a spring needs along an arc. Scalars stand twice, to multiply vectors.
 struct SpringSeries
 {
   VectorSeries from, to;    ///< arms R p of the two ends
-  VectorSeries d;           ///< from the second end to the first
-  Series length;            ///< of a spring with a rest length
+  VectorSeries d, rate;     ///< from the second end to the first, and its derivative
+  VectorSeries length;      ///< of a spring with a rest length
   VectorSeries u;           ///< and its direction
-  Series tension;           ///< of such a spring, N
+  VectorSeries lengthening;  ///< derivative of the length
   bool coincident = false;  ///< its ends meet at the start: their distance is the rounding of their places
+  double inverse = 0.0;     ///< of the first coefficient of the length; 0 where that is
   Vec2 force;               ///< on the first end, of the newest order
   VectorSeries turned;      ///< forces turned by -90 degrees: arm times this is the torque
 };
 
-/// Length and direction of the vector d up to an order, from length^2 = d.d and direction x length = d; values of lower orders are there
-/// already. Where the ends meet at the start the length is s |e| with e = d / s, so that the order above is needed of d.
+/// Length and direction of the vector d up to an order, from length' = u.d' and length u = d; values of lower orders are there already. Where the
+/// ends meet at the start the length is s |e| with e = d / s, so that the order above is needed of d.
 void lengthSeries(SpringSeries& spring, int order);
 
 /// Expands the motion of an island, bodies that move as one, into arcs: Taylor series by recurrences, with resting contact enforced on the
@@ -57,22 +58,34 @@ public:
               const std::vector<Member>& members, std::vector<Rest>& rests, Works& works);
 
 private:
+  /// With the accelerations of the newest order, and the sums of the absolute values of their terms.
   struct BodyWork
   {
+    VectorSeries place;      ///< of the centre
     VectorSeries direction;  ///< cosine and sine of the angle since the start
-    Series rate;             ///< n angle[n]
+    VectorSeries rate;       ///< n angle[n], twice
     bool rotating = false, trigonometric = false;
+    double inverse_mass = 0.0, inverse_inertia = 0.0;
     Vec2 known = Vec2::Zero();  ///< direction of the newest order without its angle coefficient
     Vec2 push = Vec2::Zero();   ///< at the start, in the world
-    Vec2 a = Vec2::Zero();
-    double alpha = 0.0;
-    double ax_size = 0.0, ay_size = 0.0, alpha_size = 0.0;
+    Vec2 a = Vec2::Zero(), a_size = Vec2::Zero();
+    double alpha = 0.0, alpha_size = 0.0;
+
+    void act(const Vec2& force, const Vec2& force_size, double torque, double torque_size)
+    {
+      a += inverse_mass * force;
+      a_size += inverse_mass * force_size;
+      alpha += inverse_inertia * torque;
+      alpha_size += inverse_inertia * torque_size;
+    }
   };
   struct RestWork
   {
     VectorSeries normal, arm, reach;
     VectorSeries turned;  ///< normals turned by -90 degrees: arm times this is the torque of 1 N
     VectorSeries levers;  ///< these torques on a and on b
+    VectorSeries force;   ///< twice
+    Vec2 along = Vec2::Zero();  ///< parts of arm and reach along the normal, at the start
     int a = -1, b = -1;
   };
   struct LinkWork
@@ -92,6 +105,8 @@ private:
   void findLevers(int n);
   void contactKnown(int n);
   void contactSolve(int n);
+  double gapAcceleration(const RestWork& rest, int n) const;
+  void push(const RestWork& rest, const Vec2& force, const Vec2& force_size, const Vec2& torque, const Vec2& torque_size);
   bool store(int n);
   bool endsEarly() const;
   bool turns(const RestWork& rest) const

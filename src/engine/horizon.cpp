@@ -109,9 +109,10 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   {
     if (link.rest_length == 0.0)
       continue;
-    Series length = link.series.length;
-    if (link.series.coincident)
-      std::rotate(length.begin(), length.begin() + 1, length.end());
+    // Divided by s where the ends meet at the start.
+    Series length;
+    for (int n = 0; n <= degree - 2; ++n)
+      length[n] = link.series.length[link.series.coincident ? n + 1 : n].x();
     if (length[0] > 0.0)
       span = std::min(span, firstBelow(length, degree - 2, span, 0.0));
   }
@@ -157,7 +158,7 @@ void Flow::findWorks(int degree, Works& works)
   works.thrust.fill(0.0);
   works.loss.fill(0.0);
   VectorSeries rate, force;
-  Series spin, shortening;
+  Series spin, lengthening;
   // Powers, as products of series that end: order n of a power is order n + 1 of the work.
   const int last = degree - 1;
   const auto lose = [&](double damping, const auto& velocity) {
@@ -192,15 +193,13 @@ void Flow::findWorks(int degree, Works& works)
     placeEnds(link, degree);
     if (link.rest_length == 0.0)
     {
-      for (int n = 0; n <= last; ++n)
-        rate[n] = (n + 1) * link.series.d[n + 1];
-      lose(link.damping, rate);
+      lose(link.damping, link.series.rate);
       continue;
     }
     lengthSeries(link.series, link.series.coincident ? degree - 1 : degree);
     for (int n = 0; n <= last; ++n)
-      shortening[n] = (n + 1) * link.series.length[n + 1];
-    lose(link.damping, shortening);
+      lengthening[n] = link.series.lengthening[n].x();
+    lose(link.damping, lengthening);
   }
   for (int n = 1; n <= works.degree; ++n)
   {

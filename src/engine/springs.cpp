@@ -6,25 +6,33 @@
 
 namespace block_world
 {
+/// With s = 1 where the ends meet, else 0, and m = order + s, the two equations leave of coefficient m of both
+///     L_m u_0 + L_s u_order = A   and   m L_m - s L_s u_0.u_order = B,
+/// with A and B of lower orders and of d; hence (m + s) L_m = B + s u_0.A.
 void lengthSeries(SpringSeries& spring, int order)
 {
-  const int shift = spring.coincident ? 1 : 0;
-  VectorSeries& u = spring.u;
-  Series& length = spring.length;
-  // Coefficients of d / s^shift are those of d further on, so those of its square stand twice as far.
-  double square = cauchySquare(spring.d, order + 2 * shift, shift);
-  if (spring.coincident)
-    length[0] = 0.0;
+  const int shift = spring.coincident ? 1 : 0, top = order + shift;
+  VectorSeries &u = spring.u, &length = spring.length;
   if (order == 0)
-    length[shift] = std::sqrt(square);
+  {
+    const double first = spring.d[shift].norm();
+    // Ends that meet without moving apart have no direction, and pull nowhere.
+    spring.inverse = first > 0.0 ? 1.0 / first : 0.0;
+    u[0] = spring.inverse * spring.d[shift];
+    length[0] = Vec2::Zero();
+    length[shift] = Vec2::Constant(first);
+  }
   else
   {
-    square -= cauchySquare(length, order + 2 * shift, 1 + shift);
-    length[order + shift] = length[shift] > 0.0 ? square / (2.0 * length[shift]) : 0.0;
+    const Vec2 rest = spring.d[top] - products(length, u, top, 1 + shift, top - 1);
+    double known = cauchy(u, spring.rate, top - 1, 0, order - 1);
+    if (spring.coincident)
+      known += u[0].dot(rest);
+    length[top] = Vec2::Constant(known / (top + shift));
+    u[order] = spring.inverse * (rest - length[top].cwiseProduct(u[0]));
   }
-  const Vec2 rest = spring.d[order + shift] - cauchy(length, u, order + shift, 1 + shift, order + shift);
-  // Ends that meet without moving apart have no direction, and pull nowhere.
-  u[order] = length[shift] > 0.0 ? Vec2(rest / length[shift]) : Vec2(Vec2::Zero());
+  if (top > 0)
+    spring.lengthening[top - 1] = top * length[top];
 }
 
 void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members)
@@ -92,19 +100,22 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
 void Flow::placeEnds(LinkWork& link, int n)
 {
   SpringSeries& v = link.series;
-  const auto placeOf = [&](int index) { return Vec2(body_[index]->arc.x[n], body_[index]->arc.y[n]); };
-  v.from[n] = turned(work_[link.first].direction[n], link.from);
-  v.d[n] = placeOf(link.first) + v.from[n];
+  const BodyWork& first = work_[link.first];
+  v.from[n] = turned(first.direction[n], link.from);
+  v.d[n] = first.place[n] + v.from[n];
   if (link.second >= 0)
   {
-    v.to[n] = turned(work_[link.second].direction[n], link.to);
-    v.d[n] -= placeOf(link.second) + v.to[n];
+    const BodyWork& second = work_[link.second];
+    v.to[n] = turned(second.direction[n], link.to);
+    v.d[n] -= second.place[n] + v.to[n];
   }
   else if (n == 0)
     v.d[n] -= link.world;
+  if (n > 0)
+    v.rate[n - 1] = n * v.d[n];
 }
 
-/// Force of a spring on its first end, order n. Needs the positions of order n + 1.
+/// Force of a spring on its first end, order n: -k (d - rest_length u) - c length' u. Needs the positions of order n + 1.
 void Flow::springForce(LinkWork& link, int n)
 {
   SpringSeries& v = link.series;
@@ -112,18 +123,16 @@ void Flow::springForce(LinkWork& link, int n)
     placeEnds(link, 0);
   placeEnds(link, n + 1);
   if (link.rest_length == 0.0)
-    v.force = -link.stiffness * v.d[n] - link.damping * (n + 1) * v.d[n + 1];
+    v.force = -link.stiffness * v.d[n] - link.damping * v.rate[n];
   else
   {
     if (n == 0)
-    {
-      const Arc& arc = body_[link.first]->arc;
-      v.coincident = v.d[0].norm() <= kCancelled * (std::abs(arc.x[0]) + std::abs(arc.y[0]) + link.rest_length);
-    }
+      v.coincident = v.d[0].norm() <= kCancelled * (work_[link.first].place[0].lpNorm<1>() + link.rest_length);
     for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
       lengthSeries(v, v.coincident ? k - 1 : k);
-    v.tension[n] = link.stiffness * (v.length[n] - (n == 0 ? link.rest_length : 0.0)) + link.damping * (n + 1) * v.length[n + 1];
-    v.force = -cauchy(v.tension, v.u, n, 0, n);
+    v.force = -link.stiffness * (v.d[n] - link.rest_length * v.u[n]);
+    if (link.damping != 0.0)
+      v.force -= link.damping * products(v.lengthening, v.u, n, 0, n);
   }
   v.turned[n] = Vec2(v.force.y(), -v.force.x());
 }
