@@ -44,7 +44,8 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
     w.push = m.frame.rotate(body.push);
     w.direction[1] = Vec2(0.0, m.omega);
     w.rate[1] = Vec2::Constant(m.omega);
-    w.trigonometric = body.pushed() || body.sprung();
+    w.pushed = body.pushed();
+    w.trigonometric = w.pushed || body.sprung();
     w.rotating = m.omega != 0.0;
   }
   rests_ = &rests;
@@ -61,48 +62,30 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
   gatherLinks(bodies, links, members);
 }
 
-/// Directions of order n from the angles below order n: with w the rate of the angle, direction' = w perp(direction).
-void Flow::turn(int n)
-{
-  const double share = 1.0 / n;
-  for (BodyWork& w : work_)
-    w.known = w.trigonometric && w.rotating ? Vec2(share * perp(products(w.rate, w.direction, n, 1, n - 1))) : Vec2(Vec2::Zero());
-}
-
-/// Accelerations of order n by everything but contact.
+/// Accelerations of order n by everything but contact, and the directions two orders on but for their angle's coefficient: with w the rate of the
+/// angle, direction' = w perp(direction).
 void Flow::freeAcceleration(int n)
 {
+  const double damping = -(n + 1) * field_->damping, share = 1.0 / (n + 2);
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     BodyWork& w = work_[i];
-    const Body& body = *body_[i];
-    w.a = -(n + 1) * field_->damping * w.inverse_mass * w.place[n + 1];
+    w.a = damping * w.inverse_mass * w.place[n + 1];
     if (n == 0)
       w.a.y() -= field_->gravity;
     w.alpha = -field_->rotational_damping * w.inverse_inertia * w.rate[n + 1].x();
     w.a_size = w.a.cwiseAbs();
     w.alpha_size = std::abs(w.alpha);
-    if (body.pushed())
+    if (w.pushed)
     {
       const Vec2& direction = w.direction[n];
-      const double twist = n == 0 ? body.twist : 0.0;
+      const double twist = n == 0 ? body_[i]->twist : 0.0;
       w.act(turned(direction, w.push), Vec2::Constant(direction.lpNorm<1>() * w.push.lpNorm<1>()), twist, std::abs(twist));
     }
+    w.known = w.trigonometric && w.rotating ? Vec2(share * perp(products(w.rate, w.direction, n + 2, 1, n + 1))) : Vec2(Vec2::Zero());
   }
   for (LinkWork& link : links_)
-  {
-    springForce(link, n);
-    const SpringSeries& v = link.series;
-    const auto act = [&](int index, const VectorSeries& arm, double sign) {
-      if (index < 0)
-        return;
-      BodyWork& w = work_[index];
-      const SizedSum torque = sizedProducts(arm, v.turned, n, 0, w.rotating ? n : 0);
-      w.act(sign * v.force, v.force.cwiseAbs(), sign * torque.sum.sum(), torque.size.sum());
-    };
-    act(link.first, v.from, 1.0);
-    act(link.second, v.to, -1.0);
-  }
+    pull(link, n);
 }
 
 /// Normal, arm and reach of every rest, order n.
@@ -289,7 +272,6 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
   for (int n = 0; n + 2 <= order; ++n)
   {
     freeAcceleration(n);
-    turn(n + 2);
     if (m > 0)
     {
       contactKnown(n);

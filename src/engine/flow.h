@@ -20,31 +20,38 @@ struct Rest
   int degree = 0;  ///< of the arcs; the force's is lower by two
 };
 
-/// Works along the arcs of an island since their start, J.
+/// Work along the arcs of an island since their start, J.
+struct Work
+{
+  ProductSeries series{};
+  int degree = 0;
+
+  double after(double span) const
+  {
+    return degree > 0 ? evaluate(series, degree, span) : 0.0;
+  }
+};
+
 struct Works
 {
-  ProductSeries thrust{};  ///< done by thrusters and wrenches
-  ProductSeries loss{};    ///< taken by damping and by the dampers of springs
-  int degree = 0;
+  Work thrust;  ///< done by thrusters and wrenches
+  Work loss;    ///< taken by damping and by the dampers of springs
 };
 
 /// Points fixed in two bodies (or one in the world) as series: what a spring needs along an arc. Scalars stand twice, to multiply vectors.
 struct SpringSeries
 {
   VectorSeries from, to;    ///< arms R p of the two ends
-  VectorSeries d, rate;     ///< from the second end to the first, and its derivative
+  VectorSeries d;           ///< from the second end to the first
+  VectorSeries rate;        ///< n d[n]
   VectorSeries length;      ///< of a spring with a rest length
   VectorSeries u;           ///< and its direction
-  VectorSeries lengthening;  ///< derivative of the length
   bool coincident = false;  ///< its ends meet at the start: their distance is the rounding of their places
   double inverse = 0.0;     ///< of the first coefficient of the length; 0 where that is
-  Vec2 force;               ///< on the first end, of the newest order
+  Vec2 lengthening;         ///< of the newest order: derivative of the length times the direction
+  Vec2 force;               ///< and that on the first end
   VectorSeries turned;      ///< forces turned by -90 degrees: arm times this is the torque
 };
-
-/// Length and direction of the vector d up to an order, from length' = u.d' and length u = d; values of lower orders are there already. Where the
-/// ends meet at the start the length is s |e| with e = d / s, so that the order above is needed of d.
-void lengthSeries(SpringSeries& spring, int order);
 
 /// Expands the motion of an island, bodies that move as one, into arcs: Taylor series by recurrences, with resting contact enforced on the
 /// position at every order (structural analysis of DAEs, Nedialkov & Pryce; no index reduction, hence no drift). One Cholesky factor of
@@ -64,9 +71,9 @@ private:
     VectorSeries place;      ///< of the centre
     VectorSeries direction;  ///< cosine and sine of the angle since the start
     VectorSeries rate;       ///< n angle[n], twice
-    bool rotating = false, trigonometric = false;
+    bool rotating = false, trigonometric = false, pushed = false;
     double inverse_mass = 0.0, inverse_inertia = 0.0;
-    Vec2 known = Vec2::Zero();  ///< direction of the newest order without its angle coefficient
+    Vec2 known = Vec2::Zero();  ///< direction two orders on, without its angle coefficient
     Vec2 push = Vec2::Zero();   ///< at the start, in the world
     Vec2 a = Vec2::Zero(), a_size = Vec2::Zero();
     double alpha = 0.0, alpha_size = 0.0;
@@ -99,7 +106,6 @@ private:
 
   void begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
              const std::vector<Member>& members, std::vector<Rest>& rests);
-  void turn(int n);
   void freeAcceleration(int n);
   void placeRests(int n);
   void findLevers(int n);
@@ -121,8 +127,9 @@ private:
 
   // springs.cpp
   void gatherLinks(const std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members);
-  void placeEnds(LinkWork& link, int n);
-  void springForce(LinkWork& link, int n);
+  void springForce(LinkWork& link, int n) const;
+  void placeEnds(LinkWork& link, int n) const;
+  void pull(LinkWork& link, int n);
 
   Room members_room_, rests_room_;
   const Field* field_ = nullptr;

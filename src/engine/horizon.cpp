@@ -28,14 +28,45 @@ double sizeOf(const Arc& arc, double radius, int n)
 /// Bounds of the third derivatives over the horizon.
 void findJerk(Arc& arc)
 {
-  arc.jerk = arc.angular_jerk = 0.0;
+  Vec2 jerk = Vec2::Zero();
+  arc.angular_jerk = 0.0;
   double power = 1.0;
   for (int n = 3; n <= arc.degree; ++n, power *= arc.horizon)
   {
     const double weight = n * (n - 1) * (n - 2) * power;
-    arc.jerk += weight * std::sqrt(arc.x[n] * arc.x[n] + arc.y[n] * arc.y[n]);
+    jerk += weight * Vec2(arc.x[n], arc.y[n]).cwiseAbs();
     arc.angular_jerk += weight * std::abs(arc.angle[n]);
   }
+  arc.jerk = jerk.norm();
+}
+
+/// Coefficients of the derivative.
+Series rateOf(const Series& c, int degree)
+{
+  Series rate;
+  for (int n = 0; n < degree; ++n)
+    rate[n] = (n + 1) * c[n + 1];
+  return rate;
+}
+
+/// Adds to a power a factor times the square of a series of that degree. Order n of the power is order n + 1 of the work.
+void addSquare(ProductSeries& work, double factor, Series rate, int degree)
+{
+  for (int i = 0; i <= degree; ++i)
+  {
+    const double twice = 2.0 * factor * rate[i];
+    double* from = &work[2 * i + 1];
+    from[0] += 0.5 * twice * rate[i];
+    for (int j = 1; j <= degree - i; ++j)
+      from[j] += twice * rate[i + j];
+  }
+}
+
+/// From the power to the work.
+void integrate(Work& work)
+{
+  for (int n = 1; n <= work.degree; ++n)
+    work.series[n] /= n;
 }
 }  // namespace
 
@@ -109,7 +140,7 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   {
     if (link.rest_length == 0.0)
       continue;
-    // Divided by s where the ends meet at the start.
+    // Divided by the time where the ends meet at the start.
     Series length;
     for (int n = 0; n <= degree - 2; ++n)
       length[n] = link.series.length[link.series.coincident ? n + 1 : n].x();
@@ -146,66 +177,55 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
 
 void Flow::findWorks(int degree, Works& works)
 {
-  works.degree = 0;
-  bool any = field_->damping > 0.0;
-  for (const Body* body : body_)
-    any = any || body->pushed();
-  for (const LinkWork& link : links_)
-    any = any || link.damping != 0.0;
-  if (!any)
-    return;
-  works.degree = 2 * degree;
-  works.thrust.fill(0.0);
-  works.loss.fill(0.0);
-  VectorSeries rate, force;
-  Series spin, lengthening;
-  // Powers, as products of series that end: order n of a power is order n + 1 of the work.
-  const int last = degree - 1;
-  const auto lose = [&](double damping, const auto& velocity) {
-    for (int n = 0; n <= 2 * last; ++n)
-      works.loss[n + 1] += damping * cauchySquare(velocity, n, std::max(0, n - last));
-  };
+  const bool pushed = std::any_of(work_.begin(), work_.end(), [](const BodyWork& w) { return w.pushed; });
+  const bool damped = field_->damping > 0.0 || std::any_of(links_.begin(), links_.end(), [](const LinkWork& link) { return link.damping != 0.0; });
+  const int last = degree - 1;  // of velocities
+  works.thrust.degree = pushed ? degree + last + 1 : 0;
+  works.loss.degree = damped ? 2 * last + 1 : 0;
+  for (Work* work : { &works.thrust, &works.loss })
+    std::fill_n(work->series.begin(), work->degree + 1, 0.0);
   for (std::size_t i = 0; i < work_.size(); ++i)
   {
     const BodyWork& w = work_[i];
     const Body& body = *body_[i];
-    for (int n = 0; n <= last; ++n)
-    {
-      rate[n] = (n + 1) * Vec2(body.arc.x[n + 1], body.arc.y[n + 1]);
-      spin[n] = (n + 1) * body.arc.angle[n + 1];
-    }
     if (field_->damping > 0.0)
     {
-      lose(field_->damping, rate);
-      lose(field_->rotational_damping, spin);
+      addSquare(works.loss.series, field_->damping, rateOf(body.arc.x, degree), last);
+      addSquare(works.loss.series, field_->damping, rateOf(body.arc.y, degree), last);
+      addSquare(works.loss.series, field_->rotational_damping, rateOf(body.arc.angle, degree), last);
     }
-    if (!body.pushed())
+    if (!w.pushed)
       continue;
+    VectorSeries rate, force;
+    for (int n = 0; n <= last; ++n)
+      rate[n] = (n + 1) * Vec2(body.arc.x[n + 1], body.arc.y[n + 1]);
     for (int n = 0; n <= degree; ++n)
       force[n] = turned(w.direction[n], w.push);
     for (int n = 0; n <= degree + last; ++n)
-      works.thrust[n + 1] += cauchy(force, rate, n, std::max(0, n - last), std::min(n, degree)) + (n <= last ? body.twist * spin[n] : 0.0);
+      works.thrust.series[n + 1] += cauchy(force, rate, n, std::max(0, n - last), std::min(n, degree));
+    for (int n = 0; n <= last; ++n)
+      works.thrust.series[n + 1] += body.twist * (n + 1) * body.arc.angle[n + 1];
   }
   for (LinkWork& link : links_)
   {
     if (link.damping == 0.0)
       continue;
-    placeEnds(link, degree);
-    if (link.rest_length == 0.0)
-    {
-      lose(link.damping, link.series.rate);
-      continue;
-    }
-    lengthSeries(link.series, link.series.coincident ? degree - 1 : degree);
+    // With it the ends are placed up to the degree.
+    springForce(link, last);
+    const bool has_length = link.rest_length != 0.0;
+    Series x, y;
     for (int n = 0; n <= last; ++n)
-      lengthening[n] = link.series.lengthening[n].x();
-    lose(link.damping, lengthening);
+    {
+      const Vec2 rate = has_length ? Vec2((n + 1) * link.series.length[n + 1]) : link.series.rate[n + 1];
+      x[n] = rate.x();
+      y[n] = rate.y();
+    }
+    addSquare(works.loss.series, link.damping, x, last);
+    if (!has_length)
+      addSquare(works.loss.series, link.damping, y, last);
   }
-  for (int n = 1; n <= works.degree; ++n)
-  {
-    works.thrust[n] /= n;
-    works.loss[n] /= n;
-  }
+  integrate(works.thrust);
+  integrate(works.loss);
 }
 
 }  // namespace block_world

@@ -195,7 +195,7 @@ void World::Engine::sleep(Island& island)
   }
   for (Rest& rest : island.rests)
     rest.degree = 0;
-  island.works.degree = 0;
+  island.works.thrust.degree = island.works.loss.degree = 0;
 }
 
 /// The island's next event: the end of its arcs, a force that would pull, or a vertex that leaves its face.

@@ -98,25 +98,6 @@ inline SizedSum sizedProducts(const VectorSeries& a, const VectorSeries& b, int 
   return result;
 }
 
-/// Terms first ... n - first of coefficient n of a square, each two that are equal once.
-inline double cauchySquare(const Series& a, int n, int first)
-{
-  double half = 0.0;
-  int j = first;
-  for (; 2 * j < n; ++j)
-    half += a[j] * a[n - j];
-  return 2.0 * half + (2 * j == n ? a[j] * a[j] : 0.0);
-}
-
-inline double cauchySquare(const VectorSeries& a, int n, int first)
-{
-  Vec2 half = Vec2::Zero();
-  int j = first;
-  for (; 2 * j < n; ++j)
-    half += a[j].cwiseProduct(a[n - j]);
-  return 2.0 * half.sum() + (2 * j == n ? a[j].squaredNorm() : 0.0);
-}
-
 /// First zero after 0 of g + v s + a s^2 / 2 for g >= 0, without cancellation; infinity if there is none.
 double firstZero(double g, double v, double a);
 

@@ -8,7 +8,7 @@ namespace
 {
 // Of the file: to be raised whenever what is exchanged changes.
 constexpr char kMagic[] = "block_world state\n";
-constexpr std::uint32_t kVersion = 3;
+constexpr std::uint32_t kVersion = 4;
 
 /// Tells apart files of processors that order their bytes otherwise.
 constexpr std::uint32_t kByteOrder = 0x01020304;

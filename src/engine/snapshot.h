@@ -204,10 +204,17 @@ void exchange(A& archive, Rest& rest)
 }
 
 template <class A>
+void exchange(A& archive, Work& work)
+{
+  auto& [series, degree] = work;
+  archive(series, degree);
+}
+
+template <class A>
 void exchange(A& archive, Works& works)
 {
-  auto& [thrust, loss, degree] = works;
-  archive(thrust, loss, degree);
+  auto& [thrust, loss] = works;
+  archive(thrust, loss);
 }
 
 template <class A>

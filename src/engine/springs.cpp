@@ -6,10 +6,28 @@
 
 namespace block_world
 {
+namespace
+{
+/// The whole numbers twice.
+struct Numbers
+{
+  VectorSeries of;
+
+  Numbers()
+  {
+    for (int n = 0; n <= kOrder; ++n)
+      of[n] = Vec2::Constant(n);
+  }
+};
+const Numbers kNumbers;
+
+/// Length and direction of the vector d up to an order, from length' = u.d' and length u = d; values of lower orders are there already. Where the
+/// ends meet at the start the length is t |e| with e = d / t, so that the order above is needed of d.
+///
 /// With s = 1 where the ends meet, else 0, and m = order + s, the two equations leave of coefficient m of both
 ///     L_m u_0 + L_s u_order = A   and   m L_m - s L_s u_0.u_order = B,
 /// with A and B of lower orders and of d; hence (m + s) L_m = B + s u_0.A.
-void lengthSeries(SpringSeries& spring, int order)
+void findLength(SpringSeries& spring, int order)
 {
   const int shift = spring.coincident ? 1 : 0, top = order + shift;
   VectorSeries &u = spring.u, &length = spring.length;
@@ -21,19 +39,26 @@ void lengthSeries(SpringSeries& spring, int order)
     u[0] = spring.inverse * spring.d[shift];
     length[0] = Vec2::Zero();
     length[shift] = Vec2::Constant(first);
+    spring.lengthening = shift * spring.d[shift];
+    return;
   }
-  else
+  // Products with the same coefficient of u: of the length, of its derivative, and of that of d.
+  Vec2 placed = Vec2::Zero(), lengthened = Vec2::Zero(), moved = spring.rate[top].cwiseProduct(u[0]);
+  for (int i = 1 + shift; i < top; ++i)
   {
-    const Vec2 rest = spring.d[top] - products(length, u, top, 1 + shift, top - 1);
-    double known = cauchy(u, spring.rate, top - 1, 0, order - 1);
-    if (spring.coincident)
-      known += u[0].dot(rest);
-    length[top] = Vec2::Constant(known / (top + shift));
-    u[order] = spring.inverse * (rest - length[top].cwiseProduct(u[0]));
+    const Vec2& direction = u[top - i];
+    const Vec2 part = length[i].cwiseProduct(direction);
+    placed += part;
+    lengthened += kNumbers.of[i].cwiseProduct(part);
+    moved += spring.rate[i].cwiseProduct(direction);
   }
-  if (top > 0)
-    spring.lengthening[top - 1] = top * length[top];
+  const Vec2 rest = spring.d[top] - placed;
+  length[top] = Vec2::Constant((moved.sum() + shift * u[0].dot(rest)) / (top + shift));
+  const Vec2 end = length[top].cwiseProduct(u[0]);
+  u[order] = spring.inverse * (rest - end);
+  spring.lengthening = lengthened + top * end + shift * length[shift].cwiseProduct(u[order]);
 }
+}  // namespace
 
 void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members)
 {
@@ -97,44 +122,61 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
 }
 
 /// Arms and the vector between the ends, order n.
-void Flow::placeEnds(LinkWork& link, int n)
+inline void Flow::placeEnds(LinkWork& link, int n) const
 {
   SpringSeries& v = link.series;
   const BodyWork& first = work_[link.first];
   v.from[n] = turned(first.direction[n], link.from);
-  v.d[n] = first.place[n] + v.from[n];
+  Vec2 d = first.place[n] + v.from[n];
   if (link.second >= 0)
   {
     const BodyWork& second = work_[link.second];
     v.to[n] = turned(second.direction[n], link.to);
-    v.d[n] -= second.place[n] + v.to[n];
+    d -= second.place[n] + v.to[n];
   }
   else if (n == 0)
-    v.d[n] -= link.world;
-  if (n > 0)
-    v.rate[n - 1] = n * v.d[n];
+    d -= link.world;
+  v.d[n] = d;
+  v.rate[n] = n * d;
 }
 
 /// Force of a spring on its first end, order n: -k (d - rest_length u) - c length' u. Needs the positions of order n + 1.
-void Flow::springForce(LinkWork& link, int n)
+void Flow::springForce(LinkWork& link, int n) const
 {
   SpringSeries& v = link.series;
   if (n == 0)
     placeEnds(link, 0);
   placeEnds(link, n + 1);
   if (link.rest_length == 0.0)
-    v.force = -link.stiffness * v.d[n] - link.damping * v.rate[n];
+    v.force = -link.stiffness * v.d[n] - link.damping * v.rate[n + 1];
   else
   {
     if (n == 0)
+    {
       v.coincident = v.d[0].norm() <= kCancelled * (work_[link.first].place[0].lpNorm<1>() + link.rest_length);
-    for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
-      lengthSeries(v, v.coincident ? k - 1 : k);
-    v.force = -link.stiffness * (v.d[n] - link.rest_length * v.u[n]);
-    if (link.damping != 0.0)
-      v.force -= link.damping * products(v.lengthening, v.u, n, 0, n);
+      if (!v.coincident)
+        findLength(v, 0);
+    }
+    findLength(v, v.coincident ? n : n + 1);
+    v.force = -link.stiffness * (v.d[n] - link.rest_length * v.u[n]) - link.damping * v.lengthening;
   }
   v.turned[n] = Vec2(v.force.y(), -v.force.x());
+}
+
+/// What a spring does to its bodies, order n.
+void Flow::pull(LinkWork& link, int n)
+{
+  springForce(link, n);
+  const SpringSeries& v = link.series;
+  const auto act = [&](int index, const VectorSeries& arm, double sign) {
+    if (index < 0)
+      return;
+    BodyWork& w = work_[index];
+    const SizedSum torque = sizedProducts(arm, v.turned, n, 0, w.rotating ? n : 0);
+    w.act(sign * v.force, v.force.cwiseAbs(), sign * torque.sum.sum(), torque.size.sum());
+  };
+  act(link.first, v.from, 1.0);
+  act(link.second, v.to, -1.0);
 }
 
 }  // namespace block_world
