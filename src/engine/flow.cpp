@@ -16,15 +16,13 @@ double cleaned(double sum, double size)
 void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
                  const std::vector<Member>& members, std::vector<Rest>& rests)
 {
-  members_room_.provide(members.size(), body_, work_);
-  rests_room_.provide(rests.size(), rest_work_, row_, rhs_, residual_);
-  body_.clear();
+  members_room_.provide(members.size(), work_);
+  rests_room_.provide(rests.size(), rest_work_, row_, forces_, residual_);
   work_.resize(members.size());
   for (std::size_t i = 0; i < members.size(); ++i)
   {
     const Member& m = members[i];
     Body& body = bodies[m.body];
-    body_.push_back(&body);
     body.arc.start = start;
     // What is beyond the degree is zero already.
     for (int n = 2; n <= body.arc.degree; ++n)
@@ -36,6 +34,7 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
     body.arc.y[1] = m.velocity.y();
     body.arc.angle[1] = m.omega;
     BodyWork& w = work_[i];
+    w.body = &body;
     w.inverse_mass = body.inverse_mass;
     w.inverse_inertia = body.inverse_inertia;
     w.place[0] = m.frame.position;
@@ -52,10 +51,17 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
   rest_work_.resize(rests.size());
   for (std::size_t i = 0; i < rests.size(); ++i)
   {
-    rest_work_[i].a = rests[i].touch.member_a;
-    rest_work_[i].b = rests[i].touch.member_b;
+    RestWork& r = rest_work_[i];
+    const Touch& t = rests[i].touch;
+    r.a = t.member_a;
+    r.b = t.member_b;
+    r.normal[0] = t.normal;
+    r.turned[0] = -perp(t.normal);
+    r.arm[0] = t.arm;
+    r.reach[0] = t.reach;
+    r.along = Vec2(t.normal.dot(t.arm), t.normal.dot(t.reach));
     rests[i].force = Series{};
-    for (int member : { rest_work_[i].a, rest_work_[i].b })
+    for (int member : { r.a, r.b })
       if (member >= 0)
         work_[member].trigonometric = true;
   }
@@ -67,9 +73,8 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
 void Flow::freeAcceleration(int n)
 {
   const double damping = -(n + 1) * field_->damping, share = 1.0 / (n + 2);
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  for (BodyWork& w : work_)
   {
-    BodyWork& w = work_[i];
     w.a = damping * w.inverse_mass * w.place[n + 1];
     if (n == 0)
       w.a.y() -= field_->gravity;
@@ -79,7 +84,7 @@ void Flow::freeAcceleration(int n)
     if (w.pushed)
     {
       const Vec2& direction = w.direction[n];
-      const double twist = n == 0 ? body_[i]->twist : 0.0;
+      const double twist = n == 0 ? w.body->twist : 0.0;
       w.act(turned(direction, w.push), Vec2::Constant(direction.lpNorm<1>() * w.push.lpNorm<1>()), twist, std::abs(twist));
     }
     w.known = w.trigonometric && w.rotating ? Vec2(share * perp(products(w.rate, w.direction, n + 2, 1, n + 1))) : Vec2(Vec2::Zero());
@@ -91,65 +96,61 @@ void Flow::freeAcceleration(int n)
 /// Normal, arm and reach of every rest, order n.
 void Flow::placeRests(int n)
 {
-  for (std::size_t i = 0; i < rest_work_.size(); ++i)
+  for (RestWork& r : rest_work_)
   {
-    RestWork& r = rest_work_[i];
-    const Touch& t = (*rests_)[i].touch;
-    if (n == 0)
+    r.arm[n] = r.a >= 0 ? turned(work_[r.a].direction[n], r.arm[0]) : Vec2(Vec2::Zero());
+    Vec2 reach = r.arm[n];
+    if (r.a >= 0)
+      reach += work_[r.a].place[n];
+    if (r.b >= 0)
     {
-      r.normal[0] = t.normal;
-      r.arm[0] = t.arm;
-      r.reach[0] = t.reach;
-      r.along = Vec2(t.normal.dot(t.arm), t.normal.dot(t.reach));
+      reach -= work_[r.b].place[n];
+      r.normal[n] = turned(work_[r.b].direction[n], r.normal[0]);
+      r.turned[n] = -perp(r.normal[n]);
     }
-    else
-    {
-      r.normal[n] = r.b >= 0 ? turned(work_[r.b].direction[n], t.normal) : Vec2(Vec2::Zero());
-      r.arm[n] = r.a >= 0 ? turned(work_[r.a].direction[n], t.arm) : Vec2(Vec2::Zero());
-      r.reach[n] = r.arm[n];
-      if (r.a >= 0)
-        r.reach[n] += work_[r.a].place[n];
-      if (r.b >= 0)
-        r.reach[n] -= work_[r.b].place[n];
-    }
-    r.turned[n] = -perp(r.normal[n]);
+    r.reach[n] = reach;
   }
 }
 
-/// Torques of 1 N at every rest, order n. Of a normal that does not turn there is the order 0 only.
-void Flow::findLevers(int n)
+/// Torques of 1 N at a rest, order n. Of a normal that does not turn there is the order 0 only.
+void Flow::findLevers(RestWork& r, int n)
 {
-  for (RestWork& r : rest_work_)
-  {
-    const int first = turns(r) ? 0 : n;
-    r.levers[n] = Vec2(cauchy(r.arm, r.turned, n, first, n), cauchy(r.reach, r.turned, n, first, n));
-  }
+  if (turns(r))
+    r.levers[n] = Vec2(cauchy(r.arm, r.turned, n, 0, n), cauchy(r.reach, r.turned, n, 0, n));
+  else
+    r.levers[n] = Vec2(r.arm[n].dot(r.turned[0]), r.reach[n].dot(r.turned[0]));
 }
 
 /// A rest's force acts on both of its bodies, with its torques on them.
-void Flow::push(const RestWork& rest, const Vec2& force, const Vec2& force_size, const Vec2& torque, const Vec2& torque_size)
+inline void Flow::push(const RestWork& rest, const SizedSum& force, const SizedSum& torque)
 {
   if (rest.a >= 0)
-    work_[rest.a].act(force, force_size, torque.x(), torque_size.x());
+    work_[rest.a].act(force.sum, force.size, torque.sum.x(), torque.size.x());
   if (rest.b >= 0)
-    work_[rest.b].act(-force, force_size, -torque.y(), torque_size.y());
+    work_[rest.b].act(-force.sum, force.size, -torque.sum.y(), torque.size.y());
 }
 
 /// Contact forces of the orders below n, whose normals and levers turn: their part of order n.
 void Flow::contactKnown(int n)
 {
-  findLevers(n);
-  for (const RestWork& r : rest_work_)
+  for (RestWork& r : rest_work_)
   {
-    const SizedSum torque = sizedProducts(r.force, r.levers, n, 0, n - 1);
-    const SizedSum force = sizedProducts(r.force, r.normal, n, turns(r) ? 0 : n, n - 1);
-    push(r, force.sum, Vec2::Constant(force.size.sum()), torque.sum, torque.size);
+    findLevers(r, n);
+    if (n == 0)
+      continue;
+    SizedSum force;
+    if (turns(r))
+    {
+      force = sizedProducts(r.force, r.normal, n, 0, n - 1);
+      force.size = Vec2::Constant(force.size.sum());
+    }
+    push(r, force, sizedProducts(r.force, r.levers, n, 0, n - 1));
   }
 }
 
 /// (n + 1)(n + 2) times the gap's coefficient of order n + 2, from the accelerations known so far: J q'' and what the turning of arm and normal adds,
 /// of which the lower orders decide all but the angles' coefficients of this order, which are in J q''.
-double Flow::gapAcceleration(const RestWork& r, int n) const
+inline double Flow::gapAcceleration(const RestWork& r, int n) const
 {
   const double factor = (n + 1) * (n + 2);
   double g = turns(r) ? factor * cauchy(r.normal, r.reach, n + 2, 1, n + 1) : 0.0;
@@ -166,33 +167,40 @@ double Flow::gapAcceleration(const RestWork& r, int n) const
   return g;
 }
 
+/// Solves A lambda = forces_, with one step of iterative refinement.
+void Flow::solveForces()
+{
+  const int m = factor_.size();
+  residual_ = forces_;
+  factor_.solve(forces_.data());
+  for (int i = 0; i < m; ++i)
+    for (int j = 0; j < m; ++j)
+      residual_[i] -= gram_(i, j) * forces_[j];
+  factor_.solve(residual_.data());
+  for (int i = 0; i < m; ++i)
+    forces_[i] += residual_[i];
+}
+
 /// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish: A lambda_n = -(n+1)(n+2) g_{n+2}.
 void Flow::contactSolve(int n)
 {
-  const int m = static_cast<int>(rest_work_.size());
-  rhs_.resize(m);
-  for (int i = 0; i < m; ++i)
-    rhs_[i] = -gapAcceleration(rest_work_[i], n);
-  residual_ = rhs_;
-  factor_.solve(rhs_.data());
-  // One step of iterative refinement, which a single equation has no need of.
-  if (m > 1)
-  {
-    for (int i = 0; i < m; ++i)
-      for (int j = 0; j < m; ++j)
-        residual_[i] -= gram_(i, j) * rhs_[j];
-    factor_.solve(residual_.data());
-    for (int i = 0; i < m; ++i)
-      rhs_[i] += residual_[i];
-  }
-  for (int i = 0; i < m; ++i)
+  const std::size_t m = rest_work_.size();
+  for (std::size_t i = 0; i < m; ++i)
+    forces_[i] = -gapAcceleration(rest_work_[i], n);
+  if (m == 1)
+    forces_[0] /= gram_(0, 0);
+  else
+    solveForces();
+  for (std::size_t i = 0; i < m; ++i)
   {
     RestWork& r = rest_work_[i];
-    const double lambda = rhs_[i];
+    const double lambda = forces_[i];
     (*rests_)[i].force[n] = lambda;
     r.force[n] = Vec2::Constant(lambda);
-    const Vec2 force = lambda * r.normal[0], torque = lambda * r.levers[0];
-    push(r, force, force.cwiseAbs(), torque, torque.cwiseAbs());
+    SizedSum force, torque;
+    force.add(lambda * r.normal[0]);
+    torque.add(lambda * r.levers[0]);
+    push(r, force, torque);
   }
 }
 
@@ -203,10 +211,9 @@ bool Flow::store(int n)
   constexpr double kLargest = 1e130;
   bool fits = true;
   const double divisor = 1.0 / ((n + 1) * (n + 2));
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  for (BodyWork& w : work_)
   {
-    BodyWork& w = work_[i];
-    Arc& arc = body_[i]->arc;
+    Arc& arc = w.body->arc;
     const double x = cleaned(w.a.x(), w.a_size.x()) * divisor, y = cleaned(w.a.y(), w.a_size.y()) * divisor;
     const double angle = cleaned(w.alpha, w.alpha_size) * divisor;
     arc.x[n + 2] = x;
@@ -221,8 +228,8 @@ bool Flow::store(int n)
   placeRests(n + 2);
   if (n < 3 || fits)
     return true;
-  for (Body* body : body_)
-    body->arc.x[n + 2] = body->arc.y[n + 2] = body->arc.angle[n + 2] = 0.0;
+  for (const BodyWork& w : work_)
+    w.body->arc.x[n + 2] = w.body->arc.y[n + 2] = w.body->arc.angle[n + 2] = 0.0;
   for (Rest& rest : *rests_)
     rest.force[n] = 0.0;
   return false;
@@ -234,10 +241,10 @@ bool Flow::endsEarly() const
 {
   if (!links_.empty())
     return false;
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  for (const BodyWork& w : work_)
   {
-    const Arc& arc = body_[i]->arc;
-    if (work_[i].rotating && work_[i].trigonometric)
+    const Arc& arc = w.body->arc;
+    if (w.rotating && w.trigonometric)
       return false;
     if (field_->damping != 0.0 && (arc.x[2] != 0.0 || arc.y[2] != 0.0 || arc.angle[2] != 0.0))
       return false;
@@ -259,13 +266,13 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
     gram_.resize(m);
     factor_.clear();
     row_.resize(m);
+    forces_.resize(m);
     for (int i = 0; i < m; ++i)
     {
       for (int j = 0; j <= i; ++j)
         gram_(i, j) = gram_(j, i) = row_[j] = contactGram(rests[i].touch, rests[j].touch, members);
       factor_.append(row_.data(), kTrusted);
     }
-    placeRests(0);
   }
   placeRests(1);
   int degree = order;

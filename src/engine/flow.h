@@ -68,6 +68,7 @@ private:
   /// With the accelerations of the newest order, and the sums of the absolute values of their terms.
   struct BodyWork
   {
+    Body* body = nullptr;
     VectorSeries place;      ///< of the centre
     VectorSeries direction;  ///< cosine and sine of the angle since the start
     VectorSeries rate;       ///< n angle[n], twice
@@ -108,11 +109,12 @@ private:
              const std::vector<Member>& members, std::vector<Rest>& rests);
   void freeAcceleration(int n);
   void placeRests(int n);
-  void findLevers(int n);
+  void findLevers(RestWork& rest, int n);
+  void push(const RestWork& rest, const SizedSum& force, const SizedSum& torque);
   void contactKnown(int n);
-  void contactSolve(int n);
   double gapAcceleration(const RestWork& rest, int n) const;
-  void push(const RestWork& rest, const Vec2& force, const Vec2& force_size, const Vec2& torque, const Vec2& torque_size);
+  void solveForces();
+  void contactSolve(int n);
   bool store(int n);
   bool endsEarly() const;
   bool turns(const RestWork& rest) const
@@ -133,14 +135,13 @@ private:
 
   Room members_room_, rests_room_;
   const Field* field_ = nullptr;
-  std::vector<Body*> body_;
   std::vector<BodyWork> work_;
   std::vector<RestWork> rest_work_;
   std::vector<Rest>* rests_ = nullptr;
   std::vector<LinkWork> links_;
   Cholesky factor_;
   SymmetricMatrix gram_;
-  std::vector<double> row_, rhs_, residual_;
+  std::vector<double> row_, forces_, residual_;
 };
 
 }  // namespace block_world

@@ -73,51 +73,51 @@ void integrate(Work& work)
 /// Span s within which the first order left out, degree + 1, changes no position, direction, velocity or force by more than the truncation error of
 /// its scale. Orders of a series fall like r^n with r = s / (radius of convergence), or faster, so that eps = r^(degree + 1) asks of order n that
 /// its share of the scale is at most eps^(n / (degree + 1)). The last two orders are asked. For velocities the scale is that of the speeds there:
-/// positions may be large next to the motion.
+/// positions may be large next to the motion. Spans are found by their logarithms to the base of 2.
 double Flow::horizon(int degree) const
 {
-  double span = kLongest;
+  double span = std::log2(kLongest);
   const auto atMost = [&span](double share, double allowed, int n) {
     if (share > 0.0)
-      span = std::min(span, allowed * std::pow(share, -1.0 / n));
+      span = std::min(span, allowed - std::log2(share) / n);
   };
-  const double allowed = std::pow(kTruncation, 1.0 / (degree + 1));
+  const double truncation = std::log2(kTruncation);
   for (int n : { degree - 1, degree })
   {
     double share = 0.0;
-    for (std::size_t i = 0; i < work_.size(); ++i)
+    for (const BodyWork& w : work_)
     {
-      const Arc& arc = body_[i]->arc;
-      const double radius = body_[i]->shape.radius, size = std::max({ std::abs(arc.x[0]), std::abs(arc.y[0]), radius });
+      const Arc& arc = w.body->arc;
+      const double radius = w.body->shape.radius, size = std::max({ std::abs(arc.x[0]), std::abs(arc.y[0]), radius });
       share = std::max(share, sizeOf(arc, radius, n) / size);
-      if (work_[i].trigonometric)
-        share = std::max(share, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
+      if (w.trigonometric)
+        share = std::max(share, radius * w.direction[n].lpNorm<Eigen::Infinity>() / size);
     }
-    atMost(share, allowed, n);
+    atMost(share, truncation / (degree + 1), n);
   }
 
   double largest = 0.0;
   for (const Rest& rest : *rests_)
     largest = std::max(largest, std::abs(rest.force[0]));
-  for (int n : { degree - 3, degree - 2 })
-  {
-    double most = 0.0;
-    for (const Rest& rest : *rests_)
-      most = std::max(most, std::abs(rest.force[n]));
-    if (largest > 0.0)
-      atMost(most / largest, std::pow(kForceTruncation, 1.0 / (degree - 1)), n);
-  }
+  if (largest > 0.0)
+    for (int n : { degree - 3, degree - 2 })
+    {
+      double most = 0.0;
+      for (const Rest& rest : *rests_)
+        most = std::max(most, std::abs(rest.force[n]));
+      atMost(most / largest, std::log2(kForceTruncation) / (degree - 1), n);
+    }
 
   // Velocities over the span found: their shares are known where it ends, and it shrinks by what they are too large.
   double shares[] = { 0.0, 0.0 };
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  const double all = std::exp2(span);
+  for (const BodyWork& w : work_)
   {
-    const Arc& arc = body_[i]->arc;
     double scale = 0.0, power = 1.0, speed = 0.0, before = 0.0;
-    for (int n = 1; n <= degree; ++n, power *= span)
+    for (int n = 1; n <= degree; ++n, power *= all)
     {
       before = speed;
-      speed = n * sizeOf(arc, body_[i]->shape.radius, n) * power;
+      speed = n * sizeOf(w.body->arc, w.body->shape.radius, n) * power;
       scale = std::max(scale, speed);
     }
     if (scale > 0.0)
@@ -126,10 +126,10 @@ double Flow::horizon(int degree) const
       shares[1] = std::max(shares[1], speed / scale);
     }
   }
-  const double all = span, allowed_speed = std::pow(kTruncation, 1.0 / degree);
+  const double allowed = span + truncation / degree;
   for (int k : { 0, 1 })
-    atMost(shares[k], all * allowed_speed, degree - 2 + k);
-  return span;
+    atMost(shares[k], allowed, degree - 2 + k);
+  return std::exp2(span);
 }
 
 void Flow::finish(const std::vector<Body>& bodies, int degree)
@@ -147,9 +147,9 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
     if (length[0] > 0.0)
       span = std::min(span, firstBelow(length, degree - 2, span, 0.0));
   }
-  for (Body* body : body_)
+  for (const BodyWork& w : work_)
   {
-    Arc& arc = body->arc;
+    Arc& arc = w.body->arc;
     arc.degree = degree;
     while (arc.degree > 0 && arc.x[arc.degree] == 0.0 && arc.y[arc.degree] == 0.0 && arc.angle[arc.degree] == 0.0)
       --arc.degree;
@@ -167,11 +167,13 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   // The way along the face is perp(n).d, the torque on its body d x n.
   if (ends)
   {
-    for (int n = degree - 1; n <= degree; ++n)
-      findLevers(n);
     for (std::size_t i = 0; i < rest_work_.size(); ++i)
+    {
+      for (int n = degree - 1; n <= degree; ++n)
+        findLevers(rest_work_[i], n);
       for (int n = 1; n <= degree; ++n)
         (*rests_)[i].along[n] = -rest_work_[i].levers[n].y();
+    }
   }
 }
 
@@ -184,10 +186,9 @@ void Flow::findWorks(int degree, Works& works)
   works.loss.degree = damped ? 2 * last + 1 : 0;
   for (Work* work : { &works.thrust, &works.loss })
     std::fill_n(work->series.begin(), work->degree + 1, 0.0);
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  for (const BodyWork& w : work_)
   {
-    const BodyWork& w = work_[i];
-    const Body& body = *body_[i];
+    const Body& body = *w.body;
     if (field_->damping > 0.0)
     {
       addSquare(works.loss.series, field_->damping, rateOf(body.arc.x, degree), last);

@@ -82,7 +82,7 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
   };
   for (std::size_t i = 0; i < members.size(); ++i)
   {
-    const Body& body = *body_[i];
+    const Body& body = *work_[i].body;
     if (body.mouse.active)
     {
       LinkWork& w = add(body.mouse.stiffness, 0.0, body.mouse.damping);
