@@ -10,8 +10,8 @@ inline Vec2 two(const Series& c, int n)
   return Vec2(c[n], c[n + 1]);
 }
 
-/// A polynomial as E(u) + s O(u) with u = s^2: value, first derivative and half of the second one of E and O side by side, by Horner's scheme, which
-/// takes half as long on each half of the orders.
+/// E(u) + s O(u) with u = s^2: values, first derivatives and halves of the second ones of E and O side by side, by Horner's scheme, which takes half
+/// as long on each half of the orders.
 struct Halves
 {
   Vec2 value = Vec2::Zero(), slope = Vec2::Zero(), bend = Vec2::Zero();
@@ -22,39 +22,51 @@ struct Halves
     slope = slope * u + value;
     value = value * u + next;
   }
-  double at(double s) const
+  double sum(double s) const
   {
     return value.x() + s * value.y();
   }
-  /// E + s O differentiated once and twice by s, with d/ds = 2 s d/du.
+  /// Differentiated by s, with d/ds = 2 s d/du; and half of the second derivative.
   double rate(double s) const
   {
     return value.y() + 2.0 * s * (slope.x() + s * slope.y());
   }
-  double acceleration(double s) const
+  double curvature(double s) const
   {
-    return 2.0 * slope.x() + s * (6.0 * slope.y() + 8.0 * s * (bend.x() + s * bend.y()));
+    return slope.x() + s * (3.0 * slope.y() + 4.0 * s * (bend.x() + s * bend.y()));
   }
 };
 
-/// What of it is not asked for is not computed, as this is inlined.
-inline Snapshot motion(const Arc& arc, const Time& time)
+/// Values, first derivatives and halves of the second ones of an arc. Orders from 2 on are taken two at a time, the first two each on its own, so
+/// that their sums are rounded once. What of it is not asked for is not computed, as this is inlined.
+[[gnu::always_inline]] inline Snapshot motion(const Arc& arc, const Time& time)
 {
   const double s = arc.degree > 0 ? time - arc.start : 0.0, u = s * s;
-  Halves x, y, angle;
-  for (int n = arc.degree & ~1; n >= 0; n -= 2)
+  Halves x, y, theta;
+  for (int n = arc.degree & ~1; n >= 2; n -= 2)
   {
     x.take(two(arc.x, n), u);
     y.take(two(arc.y, n), u);
-    angle.take(two(arc.angle, n), u);
+    theta.take(two(arc.angle, n), u);
+  }
+  Vec2 place(x.sum(s), y.sum(s)), rate(x.rate(s), y.rate(s)), bend(x.curvature(s), y.curvature(s));
+  double angle = theta.sum(s), spin = theta.rate(s), twist = theta.curvature(s);
+  for (int n = 1; n >= 0; --n)
+  {
+    bend = bend * s + rate;
+    twist = twist * s + spin;
+    rate = rate * s + place;
+    spin = spin * s + angle;
+    place = place * s + Vec2(arc.x[n], arc.y[n]);
+    angle = angle * s + arc.angle[n];
   }
   Snapshot now;
-  now.position = Vec2(x.at(s), y.at(s));
-  now.angle = angle.at(s);
-  now.velocity = Vec2(x.rate(s), y.rate(s));
-  now.omega = angle.rate(s);
-  now.acceleration = Vec2(x.acceleration(s), y.acceleration(s));
-  now.alpha = angle.acceleration(s);
+  now.position = place;
+  now.angle = angle;
+  now.velocity = rate;
+  now.omega = spin;
+  now.acceleration = 2.0 * bend;
+  now.alpha = 2.0 * twist;
   return now;
 }
 }  // namespace

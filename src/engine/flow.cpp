@@ -153,18 +153,21 @@ void Flow::contactKnown(int n)
 inline double Flow::gapAcceleration(const RestWork& r, int n) const
 {
   const double factor = (n + 1) * (n + 2);
-  double g = turns(r) ? factor * cauchy(r.normal, r.reach, n + 2, 1, n + 1) : 0.0;
+  double turning = turns(r) ? factor * cauchy(r.normal, r.reach, n + 2, 1, n + 1) : 0.0;
+  Vec2 apart = Vec2::Zero();
   if (r.a >= 0)
   {
     const BodyWork& w = work_[r.a];
-    g += r.normal[0].dot(w.a) + r.levers[0].x() * (w.alpha + factor * w.known.y()) + factor * w.known.x() * r.along.x();
+    apart += w.a;
+    turning += r.levers[0].x() * (w.alpha + factor * w.known.y()) + factor * w.known.x() * r.along.x();
   }
   if (r.b >= 0)
   {
     const BodyWork& w = work_[r.b];
-    g += -r.normal[0].dot(w.a) - r.levers[0].y() * (w.alpha + factor * w.known.y()) + factor * w.known.x() * r.along.y();
+    apart -= w.a;
+    turning += factor * w.known.x() * r.along.y() - r.levers[0].y() * (w.alpha + factor * w.known.y());
   }
-  return g;
+  return r.normal[0].dot(apart) + turning;
 }
 
 /// Solves A lambda = forces_, with one step of iterative refinement.
