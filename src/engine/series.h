@@ -89,13 +89,19 @@ struct SizedSum
   }
 };
 
-/// The products with their sizes.
+/// The products with their sizes, in two sums again.
 inline SizedSum sizedProducts(const VectorSeries& a, const VectorSeries& b, int n, int first, int last)
 {
-  SizedSum result;
-  for (int j = first; j <= last; ++j)
-    result.add(a[j].cwiseProduct(b[n - j]));
-  return result;
+  SizedSum even, odd;
+  int j = first;
+  for (; j < last; j += 2)
+  {
+    even.add(a[j].cwiseProduct(b[n - j]));
+    odd.add(a[j + 1].cwiseProduct(b[n - j - 1]));
+  }
+  if (j == last)
+    even.add(a[j].cwiseProduct(b[n - j]));
+  return { even.sum + odd.sum, even.size + odd.size };
 }
 
 /// First zero after 0 of g + v s + a s^2 / 2 for g >= 0, without cancellation; infinity if there is none.
