@@ -37,21 +37,33 @@ struct Halves
   }
 };
 
-/// Values, first derivatives and halves of the second ones of an arc. Orders from 2 on are taken two at a time, the first two each on its own, so
-/// that their sums are rounded once. What of it is not asked for is not computed, as this is inlined.
+/// Values, first derivatives and halves of the second ones of an arc. Beyond parabolas, orders from 2 on are taken two at a time; the first two each
+/// on its own, so that their sums are rounded once. What of it is not asked for is not computed, as this is inlined.
 [[gnu::always_inline]] inline Snapshot motion(const Arc& arc, const Time& time)
 {
-  const double s = arc.degree > 0 ? time - arc.start : 0.0, u = s * s;
-  Halves x, y, theta;
-  for (int n = arc.degree & ~1; n >= 2; n -= 2)
+  const double s = arc.degree > 0 ? time - arc.start : 0.0;
+  Vec2 place = Vec2::Zero(), rate = Vec2::Zero(), bend = Vec2::Zero();
+  double angle = 0.0, spin = 0.0, twist = 0.0;
+  int n = arc.degree;
+  if (n > 2)
   {
-    x.take(two(arc.x, n), u);
-    y.take(two(arc.y, n), u);
-    theta.take(two(arc.angle, n), u);
+    const double u = s * s;
+    Halves x, y, theta;
+    for (n &= ~1; n >= 2; n -= 2)
+    {
+      x.take(two(arc.x, n), u);
+      y.take(two(arc.y, n), u);
+      theta.take(two(arc.angle, n), u);
+    }
+    place = Vec2(x.sum(s), y.sum(s));
+    rate = Vec2(x.rate(s), y.rate(s));
+    bend = Vec2(x.curvature(s), y.curvature(s));
+    angle = theta.sum(s);
+    spin = theta.rate(s);
+    twist = theta.curvature(s);
+    n = 1;
   }
-  Vec2 place(x.sum(s), y.sum(s)), rate(x.rate(s), y.rate(s)), bend(x.curvature(s), y.curvature(s));
-  double angle = theta.sum(s), spin = theta.rate(s), twist = theta.curvature(s);
-  for (int n = 1; n >= 0; --n)
+  for (; n >= 0; --n)
   {
     bend = bend * s + rate;
     twist = twist * s + spin;
