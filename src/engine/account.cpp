@@ -19,11 +19,9 @@ Frame frameAt(const Body& body, const Time& time)
 void World::Engine::closeWorks(int island, const Time& time)
 {
   const Works& works = islands_[island].works;
-  if (works.degree == 0)
-    return;
   const double span = time - bodies[island].arc.start;
-  thrust_work_ += evaluate(works.thrust, works.degree, span);
-  damping_loss_ += evaluate(works.loss, works.degree, span);
+  thrust_work_ += works.thrust.after(span);
+  damping_loss_ += works.loss.after(span);
 }
 
 /// Before the forces on a body change: what its island's arcs did until now belongs to the former forces. New arcs begin here, straight ones until
@@ -150,8 +148,8 @@ EnergyAccount World::Engine::energy() const
       continue;
     const Works& works = islands_[i].works;
     const double span = now - bodies[i].arc.start;
-    energy.thrust_work += evaluate(works.thrust, works.degree, span);
-    energy.damping_loss += evaluate(works.loss, works.degree, span);
+    energy.thrust_work += works.thrust.after(span);
+    energy.damping_loss += works.loss.after(span);
   }
   energy.spring_work = spring_work_;
   energy.command_work = command_work_;

@@ -4,18 +4,66 @@ namespace block_world
 {
 namespace
 {
-/// Values, first derivatives and halves of the second ones in one pass of Horner's scheme; x and y side by side. What of it is not asked for is not
-/// computed, as this is inlined.
-inline Snapshot motion(const Arc& arc, const Time& time)
+/// A polynomial of every second order, in u = s^2, and its derivatives, by Horner's scheme: value, first derivative, half of the second one. The even
+/// orders E and the odd ones O make E(u) + s O(u); neither waits for the other.
+struct Half
+{
+  Vec2 value = Vec2::Zero(), slope = Vec2::Zero(), bend = Vec2::Zero();
+
+  void take(const Vec2& next, double u)
+  {
+    bend = bend * u + slope;
+    slope = slope * u + value;
+    value = value * u + next;
+  }
+};
+
+/// The first derivative by s, with d/ds = 2 s d/du.
+template <class T>
+T rate(const T& odd_value, const T& even_slope, const T& odd_slope, double s)
+{
+  return odd_value + 2.0 * s * (even_slope + s * odd_slope);
+}
+
+/// Half of the second one.
+template <class T>
+T curvature(const T& even_slope, const T& odd_slope, const T& even_bend, const T& odd_bend, double s)
+{
+  return even_slope + s * (3.0 * odd_slope + 4.0 * s * (even_bend + s * odd_bend));
+}
+
+/// Values, first derivatives and halves of the second ones of an arc. Beyond parabolas, orders from 2 on are taken two at a time, both of the angle
+/// side by side; the first two each on its own, so that their sums are rounded once. What of it is not asked for is not computed, as this is inlined.
+[[gnu::always_inline]] inline Snapshot motion(const Arc& arc, const Time& time)
 {
   const double s = arc.degree > 0 ? time - arc.start : 0.0;
-  Vec2 place = Vec2::Zero(), rate = Vec2::Zero(), bend = Vec2::Zero();
+  Vec2 place = Vec2::Zero(), velocity = Vec2::Zero(), bend = Vec2::Zero();
   double angle = 0.0, spin = 0.0, twist = 0.0;
-  for (int n = arc.degree; n >= 0; --n)
+  int n = arc.degree;
+  if (n > 2)
   {
-    bend = bend * s + rate;
+    const double u = s * s;
+    Half even, odd, turn;
+    for (n &= ~1; n >= 2; n -= 2)
+    {
+      const Coefficients &c = arc.order[n], &d = arc.order[n + 1];
+      even.take(c.place(), u);
+      odd.take(d.place(), u);
+      turn.take(Vec2(c.angle, d.angle), u);
+    }
+    place = even.value + s * odd.value;
+    velocity = rate<Vec2>(odd.value, even.slope, odd.slope, s);
+    bend = curvature<Vec2>(even.slope, odd.slope, even.bend, odd.bend, s);
+    angle = turn.value.x() + s * turn.value.y();
+    spin = rate(turn.value.y(), turn.slope.x(), turn.slope.y(), s);
+    twist = curvature(turn.slope.x(), turn.slope.y(), turn.bend.x(), turn.bend.y(), s);
+    n = 1;
+  }
+  for (; n >= 0; --n)
+  {
+    bend = bend * s + velocity;
     twist = twist * s + spin;
-    rate = rate * s + place;
+    velocity = velocity * s + place;
     spin = spin * s + angle;
     place = place * s + arc.order[n].place();
     angle = angle * s + arc.order[n].angle;
@@ -23,7 +71,7 @@ inline Snapshot motion(const Arc& arc, const Time& time)
   Snapshot now;
   now.position = place;
   now.angle = angle;
-  now.velocity = rate;
+  now.velocity = velocity;
   now.omega = spin;
   now.acceleration = 2.0 * bend;
   now.alpha = 2.0 * twist;

@@ -22,6 +22,10 @@ struct Coefficients
   {
     return Vec2(x, y);
   }
+  bool isZero() const
+  {
+    return x == 0.0 && y == 0.0 && angle == 0.0;
+  }
 };
 
 /// Exact motion of one body from `start` on: three polynomials in s = t - start, as true as rounding up to `horizon`. Order by order in memory, of

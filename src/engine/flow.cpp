@@ -17,7 +17,7 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
                  const std::vector<Member>& members, std::vector<Rest>& rests)
 {
   members_room_.provide(members.size(), work_);
-  rests_room_.provide(rests.size(), rest_work_, row_, rhs_, residual_);
+  rests_room_.provide(rests.size(), rest_work_, row_, forces_, residual_);
   work_.resize(members.size());
   for (std::size_t i = 0; i < members.size(); ++i)
   {
@@ -31,213 +31,175 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
     body.arc.order[1] = { m.velocity.x(), m.velocity.y(), m.omega };
     BodyWork& w = work_[i];
     w.body = &body;
+    w.inverse_mass = body.inverse_mass;
+    w.inverse_inertia = body.inverse_inertia;
+    w.place[0] = m.frame.position;
+    w.place[1] = m.velocity;
     w.direction[0] = Vec2(1.0, 0.0);
     w.push = m.frame.rotate(body.push);
-    w.trigonometric = body.pushed() || body.sprung();
-    w.rotating = false;
+    w.direction[1] = Vec2(0.0, m.omega);
+    w.rate[1] = Vec2::Constant(m.omega);
+    w.pushed = body.pushed();
+    w.trigonometric = w.pushed || body.sprung();
+    w.rotating = m.omega != 0.0;
   }
   rests_ = &rests;
   rest_work_.resize(rests.size());
   for (std::size_t i = 0; i < rests.size(); ++i)
   {
-    rest_work_[i].a = rests[i].touch.member_a;
-    rest_work_[i].b = rests[i].touch.member_b;
+    RestWork& r = rest_work_[i];
+    const Touch& t = rests[i].touch;
+    r.a = t.member_a;
+    r.b = t.member_b;
+    r.normal[0] = t.normal;
+    r.turned[0] = -perp(t.normal);
+    r.arm[0] = t.arm;
+    r.reach[0] = t.reach;
+    r.along = Vec2(t.normal.dot(t.arm), t.normal.dot(t.reach));
     rests[i].force = Series{};
-    for (int member : { rest_work_[i].a, rest_work_[i].b })
+    for (int member : { r.a, r.b })
       if (member >= 0)
         work_[member].trigonometric = true;
   }
   gatherLinks(bodies, links, members);
 }
 
-/// Directions of order n from the angles up to order n: with w the rate of the angle, direction' = w perp(direction).
-void Flow::turn(int n)
-{
-  for (BodyWork& w : work_)
-  {
-    if (!w.trigonometric)
-      continue;
-    w.known = w.rotating ? Vec2(perp(cauchy(w.rate, w.direction, n, 1, n - 1)) / n) : Vec2(Vec2::Zero());
-    turnTo(w, n);
-  }
-}
-
-/// The same where the angles of the orders below n have been known before.
-void Flow::turnTo(BodyWork& w, int n)
-{
-  const double angle = w.body->arc.order[n].angle;
-  w.rate[n] = n * angle;
-  w.direction[n] = w.known + Vec2(0.0, angle);
-}
-
-/// Accelerations of order n by everything but contact; sizes hold the sums of the absolute values of the terms.
+/// Accelerations of order n by everything but contact, and the directions two orders on but for their angle's coefficient: with w the rate of the
+/// angle, direction' = w perp(direction).
 void Flow::freeAcceleration(int n)
 {
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  const double damping = -(n + 1) * field_->damping, share = 1.0 / (n + 2);
+  for (BodyWork& w : work_)
   {
-    BodyWork& w = work_[i];
-    const Body& body = *w.body;
-    const Coefficients& c = body.arc.order[n + 1];
-    const double k = field_->damping * body.inverse_mass * (n + 1);
-    w.a = Vec2(-k * c.x, -k * c.y - (n == 0 ? field_->gravity : 0.0));
-    w.alpha = -field_->rotational_damping * body.inverse_inertia * (n + 1) * c.angle;
+    w.a = damping * w.inverse_mass * w.place[n + 1];
+    if (n == 0)
+      w.a.y() -= field_->gravity;
+    w.alpha = -field_->rotational_damping * w.inverse_inertia * w.rate[n + 1].x();
     w.a_size = w.a.cwiseAbs();
     w.alpha_size = std::abs(w.alpha);
-    if (body.pushed())
+    if (w.pushed)
     {
       const Vec2& direction = w.direction[n];
-      w.a += body.inverse_mass * turned(direction, w.push);
-      if (n == 0)
-        w.alpha += body.inverse_inertia * body.twist;
-      const double push = body.inverse_mass * direction.lpNorm<1>() * w.push.lpNorm<1>();
-      w.a_size += Vec2::Constant(push);
-      w.alpha_size += std::abs(body.inverse_inertia * body.twist);
+      const double twist = n == 0 ? w.body->twist : 0.0;
+      w.act(turned(direction, w.push), Vec2::Constant(direction.lpNorm<1>() * w.push.lpNorm<1>()), twist, std::abs(twist));
     }
+    w.known = w.trigonometric && w.rotating ? Vec2(share * perp(products(w.rate, w.direction, n + 2, 1, n + 1))) : Vec2(Vec2::Zero());
   }
   for (LinkWork& link : links_)
-  {
-    springForce(link, n);
-    const SpringSeries& v = link.series;
-    const auto act = [&](int index, const VectorSeries& arm, double sign) {
-      if (index < 0)
-        return;
-      BodyWork& w = work_[index];
-      const Body& body = *w.body;
-      Vec2 torque = Vec2::Zero(), size = Vec2::Zero();
-      for (int j = 0; j <= (w.rotating ? n : 0); ++j)
-      {
-        const Vec2 part = arm[j].cwiseProduct(v.turned[n - j]);
-        torque += part;
-        size += part.cwiseAbs();
-      }
-      w.a += sign * body.inverse_mass * v.force;
-      w.alpha += sign * body.inverse_inertia * torque.sum();
-      w.a_size += (body.inverse_mass * v.force).cwiseAbs();
-      w.alpha_size += body.inverse_inertia * size.sum();
-    };
-    act(link.first, v.from, 1.0);
-    act(link.second, v.to, -1.0);
-  }
+    pull(link, n);
 }
 
 /// Normal, arm and reach of every rest, order n.
 void Flow::placeRests(int n)
 {
-  for (std::size_t i = 0; i < rest_work_.size(); ++i)
+  for (RestWork& r : rest_work_)
   {
-    RestWork& r = rest_work_[i];
-    const Touch& t = (*rests_)[i].touch;
-    if (n == 0)
+    r.arm[n] = r.a >= 0 ? turned(work_[r.a].direction[n], r.arm[0]) : Vec2(Vec2::Zero());
+    Vec2 reach = r.arm[n];
+    if (r.a >= 0)
+      reach += work_[r.a].place[n];
+    if (r.b >= 0)
     {
-      r.normal[0] = t.normal;
-      r.arm[0] = t.arm;
-      r.reach[0] = t.reach;
+      reach -= work_[r.b].place[n];
+      r.normal[n] = turned(work_[r.b].direction[n], r.normal[0]);
+      r.turned[n] = -perp(r.normal[n]);
     }
-    else
-    {
-      r.normal[n] = r.b >= 0 ? turned(work_[r.b].direction[n], t.normal) : Vec2(Vec2::Zero());
-      r.arm[n] = r.a >= 0 ? turned(work_[r.a].direction[n], t.arm) : Vec2(Vec2::Zero());
-      r.reach[n] = r.arm[n];
-      if (r.a >= 0)
-        r.reach[n] += work_[r.a].body->arc.order[n].place();
-      if (r.b >= 0)
-        r.reach[n] -= work_[r.b].body->arc.order[n].place();
-    }
-    r.turned[n] = -perp(r.normal[n]);
+    r.reach[n] = reach;
   }
 }
 
-/// Torques of 1 N at every rest, order n. Of a normal that does not turn there is the order 0 only.
-void Flow::findLevers(int n)
+/// Torques of 1 N at a rest, order n. Of a normal that does not turn there is the order 0 only.
+void Flow::findLevers(RestWork& r, int n)
 {
-  for (RestWork& r : rest_work_)
-  {
-    const int first = turns(r) ? 0 : n;
-    r.levers[n] = Vec2(cauchy(r.arm, r.turned, n, first, n), cauchy(r.reach, r.turned, n, first, n));
-  }
+  if (turns(r))
+    r.levers[n] = Vec2(cauchy(r.arm, r.turned, n, 0, n), cauchy(r.reach, r.turned, n, 0, n));
+  else
+    r.levers[n] = Vec2(r.arm[n].dot(r.turned[0]), r.reach[n].dot(r.turned[0]));
+}
+
+/// A rest's force acts on both of its bodies, with its torques on them.
+inline void Flow::push(const RestWork& rest, const SizedSum& force, const SizedSum& torque)
+{
+  if (rest.a >= 0)
+    work_[rest.a].act(force.sum, force.size, torque.sum.x(), torque.size.x());
+  if (rest.b >= 0)
+    work_[rest.b].act(-force.sum, force.size, -torque.sum.y(), torque.size.y());
 }
 
 /// Contact forces of the orders below n, whose normals and levers turn: their part of order n.
 void Flow::contactKnown(int n)
 {
-  findLevers(n);
-  for (std::size_t i = 0; i < rest_work_.size(); ++i)
+  for (RestWork& r : rest_work_)
   {
-    const RestWork& r = rest_work_[i];
-    const Series& force = (*rests_)[i].force;
-    Vec2 sum = Vec2::Zero(), size = Vec2::Zero(), torque = Vec2::Zero(), torque_size = Vec2::Zero();
-    for (int j = 0; j < n; ++j)
+    findLevers(r, n);
+    if (n == 0)
+      continue;
+    SizedSum force;
+    if (turns(r))
     {
-      const Vec2 part = force[j] * r.levers[n - j];
-      torque += part;
-      torque_size += part.cwiseAbs();
+      force = sizedProducts(r.force, r.normal, n, 0, n - 1);
+      force.size = Vec2::Constant(force.size.sum());
     }
-    for (int j = turns(r) ? 0 : n; j < n; ++j)
-    {
-      const Vec2 part = force[j] * r.normal[n - j];
-      sum += part;
-      size += part.cwiseAbs();
-    }
-    const auto act = [&](int index, double sign, double torque, double torque_size) {
-      if (index < 0)
-        return;
-      BodyWork& w = work_[index];
-      const Body& body = *w.body;
-      w.a += sign * body.inverse_mass * sum;
-      w.alpha += sign * body.inverse_inertia * torque;
-      w.a_size += Vec2::Constant(body.inverse_mass * size.sum());
-      w.alpha_size += body.inverse_inertia * torque_size;
-    };
-    act(r.a, 1.0, torque.x(), torque_size.x());
-    act(r.b, -1.0, torque.y(), torque_size.y());
+    push(r, force, sizedProducts(r.force, r.levers, n, 0, n - 1));
   }
 }
 
-/// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish:
-/// A lambda_n = -(n+1)(n+2) g_{n+2}, with g_{n+2} computed from the accelerations known so far.
-void Flow::contactSolve(int n)
+/// (n + 1)(n + 2) times the gap's coefficient of order n + 2, from the accelerations known so far: J q'' and what the turning of arm and normal adds,
+/// of which the lower orders decide all but the angles' coefficients of this order, which are in J q''.
+inline double Flow::gapAcceleration(const RestWork& r, int n) const
 {
-  const int m = static_cast<int>(rest_work_.size());
-  const double divisor = 1.0 / ((n + 1) * (n + 2));
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  const double factor = (n + 1) * (n + 2);
+  double turning = turns(r) ? factor * cauchy(r.normal, r.reach, n + 2, 1, n + 1) : 0.0;
+  Vec2 apart = Vec2::Zero();
+  if (r.a >= 0)
   {
-    Arc& arc = work_[i].body->arc;
-    arc.order[n + 2] = { work_[i].a.x() * divisor, work_[i].a.y() * divisor, work_[i].alpha * divisor };
+    const BodyWork& w = work_[r.a];
+    apart += w.a;
+    turning += r.levers[0].x() * (w.alpha + factor * w.known.y()) + factor * w.known.x() * r.along.x();
   }
-  turn(n + 2);
-  placeRests(n + 2);
-  rhs_.resize(m);
-  for (int i = 0; i < m; ++i)
+  if (r.b >= 0)
   {
-    const RestWork& r = rest_work_[i];
-    double g = r.normal[0].dot(r.reach[n + 2]) + r.normal[n + 2].dot(r.reach[0]);
-    if (turns(r))
-      g += cauchy(r.normal, r.reach, n + 2, 1, n + 1);
-    rhs_[i] = -g / divisor;
+    const BodyWork& w = work_[r.b];
+    apart -= w.a;
+    turning += factor * w.known.x() * r.along.y() - r.levers[0].y() * (w.alpha + factor * w.known.y());
   }
-  residual_ = rhs_;
-  factor_.solve(rhs_.data());
+  return r.normal[0].dot(apart) + turning;
+}
+
+/// Solves A lambda = forces_, with one step of iterative refinement.
+void Flow::solveForces()
+{
+  const int m = factor_.size();
+  residual_ = forces_;
+  factor_.solve(forces_.data());
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j)
-      residual_[i] -= gram_(i, j) * rhs_[j];
+      residual_[i] -= gram_(i, j) * forces_[j];
   factor_.solve(residual_.data());
   for (int i = 0; i < m; ++i)
+    forces_[i] += residual_[i];
+}
+
+/// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish: A lambda_n = -(n+1)(n+2) g_{n+2}.
+void Flow::contactSolve(int n)
+{
+  const std::size_t m = rest_work_.size();
+  for (std::size_t i = 0; i < m; ++i)
+    forces_[i] = -gapAcceleration(rest_work_[i], n);
+  if (m == 1)
+    forces_[0] /= gram_(0, 0);
+  else
+    solveForces();
+  for (std::size_t i = 0; i < m; ++i)
   {
-    const double lambda = rhs_[i] + residual_[i];
+    RestWork& r = rest_work_[i];
+    const double lambda = forces_[i];
     (*rests_)[i].force[n] = lambda;
-    const RestWork& r = rest_work_[i];
-    const auto act = [&](int index, double sign, double torque) {
-      if (index < 0)
-        return;
-      BodyWork& w = work_[index];
-      const Body& body = *w.body;
-      w.a += sign * body.inverse_mass * lambda * r.normal[0];
-      w.alpha += sign * body.inverse_inertia * lambda * torque;
-      w.a_size += body.inverse_mass * (lambda * r.normal[0]).cwiseAbs();
-      w.alpha_size += body.inverse_inertia * std::abs(lambda * torque);
-    };
-    act(r.a, 1.0, r.levers[0].x());
-    act(r.b, -1.0, r.levers[0].y());
+    r.force[n] = Vec2::Constant(lambda);
+    SizedSum force, torque;
+    force.add(lambda * r.normal[0]);
+    torque.add(lambda * r.levers[0]);
+    push(r, force, torque);
   }
 }
 
@@ -250,22 +212,19 @@ bool Flow::store(int n)
   const double divisor = 1.0 / ((n + 1) * (n + 2));
   for (BodyWork& w : work_)
   {
-    Coefficients& c = w.body->arc.order[n + 2];
-    c.x = cleaned(w.a.x(), w.a_size.x()) * divisor;
-    c.y = cleaned(w.a.y(), w.a_size.y()) * divisor;
-    c.angle = cleaned(w.alpha, w.alpha_size) * divisor;
-    w.rotating = w.rotating || c.angle != 0.0;
-    fits = fits && std::abs(c.x) < kLargest && std::abs(c.y) < kLargest && std::abs(c.angle) < kLargest;
+    const double x = cleaned(w.a.x(), w.a_size.x()) * divisor, y = cleaned(w.a.y(), w.a_size.y()) * divisor;
+    const double angle = cleaned(w.alpha, w.alpha_size) * divisor;
+    w.body->arc.order[n + 2] = { x, y, angle };
+    w.place[n + 2] = Vec2(x, y);
+    w.rate[n + 2] = Vec2::Constant((n + 2) * angle);
+    w.direction[n + 2] = w.known + Vec2(0.0, angle);
+    w.rotating = w.rotating || angle != 0.0;
+    fits = fits && std::abs(x) < kLargest && std::abs(y) < kLargest && std::abs(angle) < kLargest;
   }
-  if (rest_work_.empty())
-    turn(n + 2);
-  else
-    for (BodyWork& w : work_)
-      turnTo(w, n + 2);
   placeRests(n + 2);
   if (n < 3 || fits)
     return true;
-  for (BodyWork& w : work_)
+  for (const BodyWork& w : work_)
     w.body->arc.order[n + 2] = Coefficients();
   for (Rest& rest : *rests_)
     rest.force[n] = 0.0;
@@ -278,12 +237,11 @@ bool Flow::endsEarly() const
 {
   if (!links_.empty())
     return false;
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  for (const BodyWork& w : work_)
   {
-    const Coefficients& c = work_[i].body->arc.order[2];
-    if (work_[i].rotating && work_[i].trigonometric)
+    if (w.rotating && w.trigonometric)
       return false;
-    if (field_->damping != 0.0 && (c.x != 0.0 || c.y != 0.0 || c.angle != 0.0))
+    if (field_->damping != 0.0 && !w.body->arc.order[2].isZero())
       return false;
   }
   for (const RestWork& r : rest_work_)
@@ -303,17 +261,14 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
     gram_.resize(m);
     factor_.clear();
     row_.resize(m);
+    forces_.resize(m);
     for (int i = 0; i < m; ++i)
     {
       for (int j = 0; j <= i; ++j)
         gram_(i, j) = gram_(j, i) = row_[j] = contactGram(rests[i].touch, rests[j].touch, members);
       factor_.append(row_.data(), kTrusted);
     }
-    placeRests(0);
   }
-  turn(1);
-  for (std::size_t i = 0; i < work_.size(); ++i)
-    work_[i].rotating = members[i].omega != 0.0;
   placeRests(1);
   int degree = order;
   for (int n = 0; n + 2 <= order; ++n)

@@ -20,30 +20,38 @@ struct Rest
   int degree = 0;  ///< of the arcs; the force's is lower by two
 };
 
-/// Works along the arcs of an island since their start, J.
-struct Works
+/// Work along the arcs of an island since their start, J.
+struct Work
 {
-  int degree = 0;          ///< 0: nothing works
-  ProductSeries thrust{};  ///< done by thrusters and wrenches
-  ProductSeries loss{};    ///< taken by damping and by the dampers of springs
+  int degree = 0;  ///< 0: nothing works
+  ProductSeries series{};
+
+  double after(double span) const
+  {
+    return degree > 0 ? evaluate(series, degree, span) : 0.0;
+  }
 };
 
-/// Points fixed in two bodies (or one in the world) as series: what a spring needs along an arc.
+struct Works
+{
+  Work thrust;  ///< done by thrusters and wrenches
+  Work loss;    ///< taken by damping and by the dampers of springs
+};
+
+/// Points fixed in two bodies (or one in the world) as series: what a spring needs along an arc. Scalars stand twice, to multiply vectors.
 struct SpringSeries
 {
   VectorSeries from, to;    ///< arms R p of the two ends
   VectorSeries d;           ///< from the second end to the first
-  Series length;            ///< of a spring with a rest length
+  VectorSeries rate;        ///< n d[n]
+  VectorSeries length;      ///< of a spring with a rest length
   VectorSeries u;           ///< and its direction
-  Series tension;           ///< of such a spring, N
   bool coincident = false;  ///< its ends meet at the start: their distance is the rounding of their places
-  Vec2 force;               ///< on the first end, of the newest order
+  double inverse = 0.0;     ///< of the first coefficient of the length; 0 where that is
+  Vec2 lengthening;         ///< of the newest order: derivative of the length times the direction
+  Vec2 force;               ///< and that on the first end
   VectorSeries turned;      ///< forces turned by -90 degrees: arm times this is the torque
 };
-
-/// Length and direction of the vector d up to an order, from length^2 = d.d and direction x length = d; values of lower orders are there
-/// already. Where the ends meet at the start the length is s |e| with e = d / s, so that the order above is needed of d.
-void lengthSeries(SpringSeries& spring, int order);
 
 /// Expands the motion of an island, bodies that move as one, into arcs: Taylor series by recurrences, with resting contact enforced on the
 /// position at every order (structural analysis of DAEs, Nedialkov & Pryce; no index reduction, hence no drift). One Cholesky factor of
@@ -57,24 +65,35 @@ public:
               const std::vector<Member>& members, std::vector<Rest>& rests, Works& works);
 
 private:
+  /// With the accelerations of the newest order, and the sums of the absolute values of their terms.
   struct BodyWork
   {
     Body* body = nullptr;
+    VectorSeries place;      ///< of the centre
     VectorSeries direction;  ///< cosine and sine of the angle since the start
-    Series rate;             ///< n angle[n]
-    bool rotating = false, trigonometric = false;
-    Vec2 known = Vec2::Zero();  ///< direction of the newest order without its angle coefficient
+    VectorSeries rate;       ///< n angle[n], twice
+    bool rotating = false, trigonometric = false, pushed = false;
+    double inverse_mass = 0.0, inverse_inertia = 0.0;
+    Vec2 known = Vec2::Zero();  ///< direction two orders on, without its angle coefficient
     Vec2 push = Vec2::Zero();   ///< at the start, in the world
-    Vec2 a = Vec2::Zero();
-    double alpha = 0.0;
-    Vec2 a_size = Vec2::Zero();  ///< sums of the absolute values of their terms
-    double alpha_size = 0.0;
+    Vec2 a = Vec2::Zero(), a_size = Vec2::Zero();
+    double alpha = 0.0, alpha_size = 0.0;
+
+    void act(const Vec2& force, const Vec2& force_size, double torque, double torque_size)
+    {
+      a += inverse_mass * force;
+      a_size += inverse_mass * force_size;
+      alpha += inverse_inertia * torque;
+      alpha_size += inverse_inertia * torque_size;
+    }
   };
   struct RestWork
   {
     VectorSeries normal, arm, reach;
     VectorSeries turned;  ///< normals turned by -90 degrees: arm times this is the torque of 1 N
     VectorSeries levers;  ///< these torques on a and on b
+    VectorSeries force;   ///< twice
+    Vec2 along = Vec2::Zero();  ///< parts of arm and reach along the normal, at the start
     int a = -1, b = -1;
   };
   struct LinkWork
@@ -88,12 +107,13 @@ private:
 
   void begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links, const Time& start,
              const std::vector<Member>& members, std::vector<Rest>& rests);
-  void turn(int n);
-  static void turnTo(BodyWork& w, int n);
   void freeAcceleration(int n);
   void placeRests(int n);
-  void findLevers(int n);
+  void findLevers(RestWork& rest, int n);
+  void push(const RestWork& rest, const SizedSum& force, const SizedSum& torque);
   void contactKnown(int n);
+  double gapAcceleration(const RestWork& rest, int n) const;
+  void solveForces();
   void contactSolve(int n);
   bool store(int n);
   bool endsEarly() const;
@@ -109,8 +129,9 @@ private:
 
   // springs.cpp
   void gatherLinks(const std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members);
-  void placeEnds(LinkWork& link, int n);
-  void springForce(LinkWork& link, int n);
+  void springForce(LinkWork& link, int n) const;
+  void placeEnds(LinkWork& link, int n) const;
+  void pull(LinkWork& link, int n);
 
   Room members_room_, rests_room_;
   const Field* field_ = nullptr;
@@ -120,7 +141,7 @@ private:
   std::vector<LinkWork> links_;
   Cholesky factor_;
   SymmetricMatrix gram_;
-  std::vector<double> row_, rhs_, residual_;
+  std::vector<double> row_, forces_, residual_;
 };
 
 }  // namespace block_world

@@ -29,66 +29,96 @@ double sizeOf(const Arc& arc, double radius, int n)
 /// Bounds of the third derivatives over the horizon.
 void findJerk(Arc& arc)
 {
-  arc.jerk = arc.angular_jerk = 0.0;
+  Vec2 jerk = Vec2::Zero();
+  arc.angular_jerk = 0.0;
   double power = 1.0;
   for (int n = 3; n <= arc.degree; ++n, power *= arc.horizon)
   {
     const double weight = n * (n - 1) * (n - 2) * power;
-    const Coefficients& c = arc.order[n];
-    arc.jerk += weight * std::sqrt(c.x * c.x + c.y * c.y);
-    arc.angular_jerk += weight * std::abs(c.angle);
+    jerk += weight * arc.order[n].place().cwiseAbs();
+    arc.angular_jerk += weight * std::abs(arc.order[n].angle);
   }
+  arc.jerk = jerk.norm();
+}
+
+/// Coefficients of the derivative.
+Series rateOf(const Series& c, int degree)
+{
+  Series rate;
+  for (int n = 0; n < degree; ++n)
+    rate[n] = (n + 1) * c[n + 1];
+  return rate;
+}
+
+/// Adds to a power a factor times the square of a series of that degree. Order n of the power is order n + 1 of the work.
+void addSquare(ProductSeries& work, double factor, Series rate, int degree)
+{
+  for (int i = 0; i <= degree; ++i)
+  {
+    const double twice = 2.0 * factor * rate[i];
+    double* from = &work[2 * i + 1];
+    from[0] += 0.5 * twice * rate[i];
+    for (int j = 1; j <= degree - i; ++j)
+      from[j] += twice * rate[i + j];
+  }
+}
+
+/// From the power to the work.
+void integrate(Work& work)
+{
+  for (int n = 1; n <= work.degree; ++n)
+    work.series[n] /= n;
 }
 }  // namespace
 
 /// Span s within which the first order left out, degree + 1, changes no position, direction, velocity or force by more than the truncation error of
 /// its scale. Orders of a series fall like r^n with r = s / (radius of convergence), or faster, so that eps = r^(degree + 1) asks of order n that
 /// its share of the scale is at most eps^(n / (degree + 1)). The last two orders are asked. For velocities the scale is that of the speeds there:
-/// positions may be large next to the motion.
+/// positions may be large next to the motion. Spans are found by their logarithms to the base of 2.
 double Flow::horizon(int degree) const
 {
-  double span = kLongest;
+  double span = std::log2(kLongest);
   const auto atMost = [&span](double share, double allowed, int n) {
     if (share > 0.0)
-      span = std::min(span, allowed * std::pow(share, -1.0 / n));
+      span = std::min(span, allowed - std::log2(share) / n);
   };
-  const double allowed = std::pow(kTruncation, 1.0 / (degree + 1));
+  const double truncation = std::log2(kTruncation);
   for (int n : { degree - 1, degree })
   {
     double share = 0.0;
-    for (std::size_t i = 0; i < work_.size(); ++i)
+    for (const BodyWork& w : work_)
     {
-      const Arc& arc = work_[i].body->arc;
-      const double radius = work_[i].body->shape->radius, size = std::max({ std::abs(arc.order[0].x), std::abs(arc.order[0].y), radius });
+      const Arc& arc = w.body->arc;
+      const double radius = w.body->shape->radius, size = std::max({ std::abs(arc.order[0].x), std::abs(arc.order[0].y), radius });
       share = std::max(share, sizeOf(arc, radius, n) / size);
-      if (work_[i].trigonometric)
-        share = std::max(share, radius * work_[i].direction[n].lpNorm<Eigen::Infinity>() / size);
+      if (w.trigonometric)
+        share = std::max(share, radius * w.direction[n].lpNorm<Eigen::Infinity>() / size);
     }
-    atMost(share, allowed, n);
+    atMost(share, truncation / (degree + 1), n);
   }
 
   double largest = 0.0;
   for (const Rest& rest : *rests_)
     largest = std::max(largest, std::abs(rest.force[0]));
-  for (int n : { degree - 3, degree - 2 })
-  {
-    double most = 0.0;
-    for (const Rest& rest : *rests_)
-      most = std::max(most, std::abs(rest.force[n]));
-    if (largest > 0.0)
-      atMost(most / largest, std::pow(kForceTruncation, 1.0 / (degree - 1)), n);
-  }
+  if (largest > 0.0)
+    for (int n : { degree - 3, degree - 2 })
+    {
+      double most = 0.0;
+      for (const Rest& rest : *rests_)
+        most = std::max(most, std::abs(rest.force[n]));
+      atMost(most / largest, std::log2(kForceTruncation) / (degree - 1), n);
+    }
 
   // Velocities over the span found: their shares are known where it ends, and it shrinks by what they are too large.
   double shares[] = { 0.0, 0.0 };
-  for (std::size_t i = 0; i < work_.size(); ++i)
+  const double all = std::exp2(span);
+  for (const BodyWork& w : work_)
   {
-    const Arc& arc = work_[i].body->arc;
     double scale = 0.0, power = 1.0, speed = 0.0, before = 0.0;
-    for (int n = 1; n <= degree; ++n, power *= span)
+    for (int n = 1; n <= degree; ++n, power *= all)
     {
       before = speed;
-      speed = n * sizeOf(arc, work_[i].body->shape->radius, n) * power;
+      speed = n * sizeOf(w.body->arc, w.body->shape->radius, n) * power;
       scale = std::max(scale, speed);
     }
     if (scale > 0.0)
@@ -97,10 +127,10 @@ double Flow::horizon(int degree) const
       shares[1] = std::max(shares[1], speed / scale);
     }
   }
-  const double all = span, allowed_speed = std::pow(kTruncation, 1.0 / degree);
+  const double allowed = span + truncation / degree;
   for (int k : { 0, 1 })
-    atMost(shares[k], all * allowed_speed, degree - 2 + k);
-  return span;
+    atMost(shares[k], allowed, degree - 2 + k);
+  return std::exp2(span);
 }
 
 void Flow::finish(const std::vector<Body>& bodies, int degree)
@@ -111,17 +141,18 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   {
     if (link.rest_length == 0.0)
       continue;
-    Series length = link.series.length;
-    if (link.series.coincident)
-      std::rotate(length.begin(), length.begin() + 1, length.end());
+    // Divided by the time where the ends meet at the start.
+    Series length;
+    for (int n = 0; n <= degree - 2; ++n)
+      length[n] = link.series.length[link.series.coincident ? n + 1 : n].x();
     if (length[0] > 0.0)
       span = std::min(span, firstBelow(length, degree - 2, span, 0.0));
   }
-  for (BodyWork& w : work_)
+  for (const BodyWork& w : work_)
   {
     Arc& arc = w.body->arc;
     arc.degree = degree;
-    while (arc.degree > 0 && arc.order[arc.degree].x == 0.0 && arc.order[arc.degree].y == 0.0 && arc.order[arc.degree].angle == 0.0)
+    while (arc.degree > 0 && arc.order[arc.degree].isZero())
       --arc.degree;
     arc.horizon = span;
     arc.end = arc.start + span;
@@ -137,78 +168,66 @@ void Flow::finish(const std::vector<Body>& bodies, int degree)
   // The way along the face is perp(n).d, the torque on its body d x n.
   if (ends)
   {
-    for (int n = degree - 1; n <= degree; ++n)
-      findLevers(n);
     for (std::size_t i = 0; i < rest_work_.size(); ++i)
+    {
+      for (int n = degree - 1; n <= degree; ++n)
+        findLevers(rest_work_[i], n);
       for (int n = 1; n <= degree; ++n)
         (*rests_)[i].along[n] = -rest_work_[i].levers[n].y();
+    }
   }
 }
 
 void Flow::findWorks(int degree, Works& works)
 {
-  works.degree = 0;
-  bool any = field_->damping > 0.0;
+  const bool pushed = std::any_of(work_.begin(), work_.end(), [](const BodyWork& w) { return w.pushed; });
+  const bool damped = field_->damping > 0.0 || std::any_of(links_.begin(), links_.end(), [](const LinkWork& link) { return link.damping != 0.0; });
+  const int last = degree - 1;  // of velocities
+  works.thrust.degree = pushed ? degree + last + 1 : 0;
+  works.loss.degree = damped ? 2 * last + 1 : 0;
+  for (Work* work : { &works.thrust, &works.loss })
+    std::fill_n(work->series.begin(), work->degree + 1, 0.0);
   for (const BodyWork& w : work_)
-    any = any || w.body->pushed();
-  for (const LinkWork& link : links_)
-    any = any || link.damping != 0.0;
-  if (!any)
-    return;
-  works.degree = 2 * degree;
-  works.thrust.fill(0.0);
-  works.loss.fill(0.0);
-  VectorSeries rate, force;
-  Series spin, shortening;
-  // Powers, as products of series that end: order n of a power is order n + 1 of the work.
-  const int last = degree - 1;
-  const auto lose = [&](double damping, const auto& velocity) {
-    for (int n = 0; n <= 2 * last; ++n)
-      works.loss[n + 1] += damping * cauchySquare(velocity, n, std::max(0, n - last));
-  };
-  for (std::size_t i = 0; i < work_.size(); ++i)
   {
-    const BodyWork& w = work_[i];
     const Body& body = *w.body;
-    for (int n = 0; n <= last; ++n)
-    {
-      rate[n] = (n + 1) * body.arc.order[n + 1].place();
-      spin[n] = (n + 1) * body.arc.order[n + 1].angle;
-    }
     if (field_->damping > 0.0)
     {
-      lose(field_->damping, rate);
-      lose(field_->rotational_damping, spin);
+      addSquare(works.loss.series, field_->damping, rateOf(body.arc.series(&Coefficients::x), degree), last);
+      addSquare(works.loss.series, field_->damping, rateOf(body.arc.series(&Coefficients::y), degree), last);
+      addSquare(works.loss.series, field_->rotational_damping, rateOf(body.arc.series(&Coefficients::angle), degree), last);
     }
-    if (!body.pushed())
+    if (!w.pushed)
       continue;
+    VectorSeries rate, force;
+    for (int n = 0; n <= last; ++n)
+      rate[n] = (n + 1) * body.arc.order[n + 1].place();
     for (int n = 0; n <= degree; ++n)
       force[n] = turned(w.direction[n], w.push);
     for (int n = 0; n <= degree + last; ++n)
-      works.thrust[n + 1] += cauchy(force, rate, n, std::max(0, n - last), std::min(n, degree)) + (n <= last ? body.twist * spin[n] : 0.0);
+      works.thrust.series[n + 1] += cauchy(force, rate, n, std::max(0, n - last), std::min(n, degree));
+    for (int n = 0; n <= last; ++n)
+      works.thrust.series[n + 1] += body.twist * (n + 1) * body.arc.order[n + 1].angle;
   }
   for (LinkWork& link : links_)
   {
     if (link.damping == 0.0)
       continue;
-    placeEnds(link, degree);
-    if (link.rest_length == 0.0)
-    {
-      for (int n = 0; n <= last; ++n)
-        rate[n] = (n + 1) * link.series.d[n + 1];
-      lose(link.damping, rate);
-      continue;
-    }
-    lengthSeries(link.series, link.series.coincident ? degree - 1 : degree);
+    // With it the ends are placed up to the degree.
+    springForce(link, last);
+    const bool has_length = link.rest_length != 0.0;
+    Series x, y;
     for (int n = 0; n <= last; ++n)
-      shortening[n] = (n + 1) * link.series.length[n + 1];
-    lose(link.damping, shortening);
+    {
+      const Vec2 rate = has_length ? Vec2((n + 1) * link.series.length[n + 1]) : link.series.rate[n + 1];
+      x[n] = rate.x();
+      y[n] = rate.y();
+    }
+    addSquare(works.loss.series, link.damping, x, last);
+    if (!has_length)
+      addSquare(works.loss.series, link.damping, y, last);
   }
-  for (int n = 1; n <= works.degree; ++n)
-  {
-    works.thrust[n] /= n;
-    works.loss[n] /= n;
-  }
+  integrate(works.thrust);
+  integrate(works.loss);
 }
 
 }  // namespace block_world

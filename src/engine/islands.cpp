@@ -11,7 +11,7 @@ namespace block_world
 namespace
 {
 /// Where events cut arcs off after less than this share of their horizon, as in heaps, half as many orders are good for as long: the horizon goes
-/// with eps^(1 / (order + 1)), and eps^(1/13 - 1/25) = 0.26.
+/// with eps^(1 / (order + 1)), and eps^(1/13 - 1/26) = 0.25.
 constexpr double kBrief = 0.25;
 constexpr int kLowOrder = kOrder / 2;
 }  // namespace
@@ -195,7 +195,7 @@ void World::Engine::sleep(Island& island)
   }
   for (Rest& rest : island.rests)
     rest.degree = 0;
-  island.works.degree = 0;
+  island.works.thrust.degree = island.works.loss.degree = 0;
 }
 
 /// The island's next event: the end of its arcs, a force that would pull, or a vertex that leaves its face.

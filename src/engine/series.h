@@ -8,7 +8,8 @@ namespace block_world
 {
 /// Highest power of time in an arc. Jorba & Zou (2005): where the products of series are all the work, the cheapest order for a relative error eps is
 /// about 1 - ln(eps)/2 = 18. An order costs as much beside its products, and so does an arc beside its orders: with more of them arcs last longer.
-constexpr int kOrder = 24;
+/// Odd, as coefficients are read two at a time.
+constexpr int kOrder = 25;
 
 /// Coefficients of 1, s, s^2, ... with s the time since the start of an arc.
 using Series = std::array<double, kOrder + 1>;
@@ -54,23 +55,9 @@ inline double cauchy(const Series& a, const Series& b, int n)
   return sum;
 }
 
-/// Terms j = first ... last of coefficient n of a product, a scalar's with a vector's. Two sums, so that none waits for the other.
-inline Vec2 cauchy(const Series& a, const VectorSeries& b, int n, int first, int last)
-{
-  Vec2 even = Vec2::Zero(), odd = Vec2::Zero();
-  int j = first;
-  for (; j < last; j += 2)
-  {
-    even += a[j] * b[n - j];
-    odd += a[j + 1] * b[n - j - 1];
-  }
-  if (j == last)
-    even += a[j] * b[n - j];
-  return even + odd;
-}
-
-/// The same of a scalar product.
-inline double cauchy(const VectorSeries& a, const VectorSeries& b, int n, int first, int last)
+/// Terms j = first ... last of coefficient n of the products of two series each, side by side; a scalar's with a vector's where the first holds it
+/// twice. Two sums, so that none waits for the other.
+inline Vec2 products(const VectorSeries& a, const VectorSeries& b, int n, int first, int last)
 {
   Vec2 even = Vec2::Zero(), odd = Vec2::Zero();
   int j = first;
@@ -81,26 +68,40 @@ inline double cauchy(const VectorSeries& a, const VectorSeries& b, int n, int fi
   }
   if (j == last)
     even += a[j].cwiseProduct(b[n - j]);
-  return (even + odd).sum();
+  return even + odd;
 }
 
-/// Terms first ... n - first of coefficient n of a square, each two that are equal once.
-inline double cauchySquare(const Series& a, int n, int first)
+/// The same of a scalar product.
+inline double cauchy(const VectorSeries& a, const VectorSeries& b, int n, int first, int last)
 {
-  double half = 0.0;
-  int j = first;
-  for (; 2 * j < n; ++j)
-    half += a[j] * a[n - j];
-  return 2.0 * half + (2 * j == n ? a[j] * a[j] : 0.0);
+  return products(a, b, n, first, last).sum();
 }
 
-inline double cauchySquare(const VectorSeries& a, int n, int first)
+/// Two sums with the sums of the absolute values of their terms, which rounding is proportional to.
+struct SizedSum
 {
-  Vec2 half = Vec2::Zero();
+  Vec2 sum = Vec2::Zero(), size = Vec2::Zero();
+
+  void add(const Vec2& term)
+  {
+    sum += term;
+    size += term.cwiseAbs();
+  }
+};
+
+/// The products with their sizes, in two sums again.
+inline SizedSum sizedProducts(const VectorSeries& a, const VectorSeries& b, int n, int first, int last)
+{
+  SizedSum even, odd;
   int j = first;
-  for (; 2 * j < n; ++j)
-    half += a[j].cwiseProduct(a[n - j]);
-  return 2.0 * half.sum() + (2 * j == n ? a[j].squaredNorm() : 0.0);
+  for (; j < last; j += 2)
+  {
+    even.add(a[j].cwiseProduct(b[n - j]));
+    odd.add(a[j + 1].cwiseProduct(b[n - j - 1]));
+  }
+  if (j == last)
+    even.add(a[j].cwiseProduct(b[n - j]));
+  return { even.sum + odd.sum, even.size + odd.size };
 }
 
 /// First zero after 0 of g + v s + a s^2 / 2 for g >= 0, without cancellation; infinity if there is none.

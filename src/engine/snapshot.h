@@ -221,10 +221,17 @@ void exchange(A& archive, Rest& rest)
 }
 
 template <class A>
+void exchange(A& archive, Work& work)
+{
+  auto& [degree, series] = work;
+  archive(degree, series);
+}
+
+template <class A>
 void exchange(A& archive, Works& works)
 {
-  auto& [degree, thrust, loss] = works;
-  archive(degree, thrust, loss);
+  auto& [thrust, loss] = works;
+  archive(thrust, loss);
 }
 
 template <class A>

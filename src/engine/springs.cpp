@@ -6,26 +6,59 @@
 
 namespace block_world
 {
-void lengthSeries(SpringSeries& spring, int order)
+namespace
 {
-  const int shift = spring.coincident ? 1 : 0;
-  VectorSeries& u = spring.u;
-  Series& length = spring.length;
-  // Coefficients of d / s^shift are those of d further on, so those of its square stand twice as far.
-  double square = cauchySquare(spring.d, order + 2 * shift, shift);
-  if (spring.coincident)
-    length[0] = 0.0;
-  if (order == 0)
-    length[shift] = std::sqrt(square);
-  else
+/// The whole numbers twice.
+struct Numbers
+{
+  VectorSeries of;
+
+  Numbers()
   {
-    square -= cauchySquare(length, order + 2 * shift, 1 + shift);
-    length[order + shift] = length[shift] > 0.0 ? square / (2.0 * length[shift]) : 0.0;
+    for (int n = 0; n <= kOrder; ++n)
+      of[n] = Vec2::Constant(n);
   }
-  const Vec2 rest = spring.d[order + shift] - cauchy(length, u, order + shift, 1 + shift, order + shift);
-  // Ends that meet without moving apart have no direction, and pull nowhere.
-  u[order] = length[shift] > 0.0 ? Vec2(rest / length[shift]) : Vec2(Vec2::Zero());
+};
+const Numbers kNumbers;
+
+/// Length and direction of the vector d up to an order, from length' = u.d' and length u = d; values of lower orders are there already. Where the
+/// ends meet at the start the length is t |e| with e = d / t, so that the order above is needed of d.
+///
+/// With s = 1 where the ends meet, else 0, and m = order + s, the two equations leave of coefficient m of both
+///     L_m u_0 + L_s u_order = A   and   m L_m - s L_s u_0.u_order = B,
+/// with A and B of lower orders and of d; hence (m + s) L_m = B + s u_0.A.
+void findLength(SpringSeries& spring, int order)
+{
+  const int shift = spring.coincident ? 1 : 0, top = order + shift;
+  VectorSeries &u = spring.u, &length = spring.length;
+  if (order == 0)
+  {
+    const double first = spring.d[shift].norm();
+    // Ends that meet without moving apart have no direction, and pull nowhere.
+    spring.inverse = first > 0.0 ? 1.0 / first : 0.0;
+    u[0] = spring.inverse * spring.d[shift];
+    length[0] = Vec2::Zero();
+    length[shift] = Vec2::Constant(first);
+    spring.lengthening = shift * spring.d[shift];
+    return;
+  }
+  // Products with the same coefficient of u: of the length, of its derivative, and of that of d.
+  Vec2 placed = Vec2::Zero(), lengthened = Vec2::Zero(), moved = spring.rate[top].cwiseProduct(u[0]);
+  for (int i = 1 + shift; i < top; ++i)
+  {
+    const Vec2& direction = u[top - i];
+    const Vec2 part = length[i].cwiseProduct(direction);
+    placed += part;
+    lengthened += kNumbers.of[i].cwiseProduct(part);
+    moved += spring.rate[i].cwiseProduct(direction);
+  }
+  const Vec2 rest = spring.d[top] - placed;
+  length[top] = Vec2::Constant((moved.sum() + shift * u[0].dot(rest)) / (top + shift));
+  const Vec2 end = length[top].cwiseProduct(u[0]);
+  u[order] = spring.inverse * (rest - end);
+  spring.lengthening = lengthened + top * end + shift * length[shift].cwiseProduct(u[order]);
 }
+}  // namespace
 
 void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<SpringLink>& links, const std::vector<Member>& members)
 {
@@ -89,43 +122,61 @@ void Flow::gatherLinks(const std::vector<Body>& bodies, const std::vector<Spring
 }
 
 /// Arms and the vector between the ends, order n.
-void Flow::placeEnds(LinkWork& link, int n)
+inline void Flow::placeEnds(LinkWork& link, int n) const
 {
   SpringSeries& v = link.series;
-  const auto placeOf = [&](int index) { return work_[index].body->arc.order[n].place(); };
-  v.from[n] = turned(work_[link.first].direction[n], link.from);
-  v.d[n] = placeOf(link.first) + v.from[n];
+  const BodyWork& first = work_[link.first];
+  v.from[n] = turned(first.direction[n], link.from);
+  Vec2 d = first.place[n] + v.from[n];
   if (link.second >= 0)
   {
-    v.to[n] = turned(work_[link.second].direction[n], link.to);
-    v.d[n] -= placeOf(link.second) + v.to[n];
+    const BodyWork& second = work_[link.second];
+    v.to[n] = turned(second.direction[n], link.to);
+    d -= second.place[n] + v.to[n];
   }
   else if (n == 0)
-    v.d[n] -= link.world;
+    d -= link.world;
+  v.d[n] = d;
+  v.rate[n] = n * d;
 }
 
-/// Force of a spring on its first end, order n. Needs the positions of order n + 1.
-void Flow::springForce(LinkWork& link, int n)
+/// Force of a spring on its first end, order n: -k (d - rest_length u) - c length' u. Needs the positions of order n + 1.
+void Flow::springForce(LinkWork& link, int n) const
 {
   SpringSeries& v = link.series;
   if (n == 0)
     placeEnds(link, 0);
   placeEnds(link, n + 1);
   if (link.rest_length == 0.0)
-    v.force = -link.stiffness * v.d[n] - link.damping * (n + 1) * v.d[n + 1];
+    v.force = -link.stiffness * v.d[n] - link.damping * v.rate[n + 1];
   else
   {
     if (n == 0)
     {
-      const Arc& arc = work_[link.first].body->arc;
-      v.coincident = v.d[0].norm() <= kCancelled * (std::abs(arc.order[0].x) + std::abs(arc.order[0].y) + link.rest_length);
+      v.coincident = v.d[0].norm() <= kCancelled * (work_[link.first].place[0].lpNorm<1>() + link.rest_length);
+      if (!v.coincident)
+        findLength(v, 0);
     }
-    for (int k = n == 0 && !v.coincident ? 0 : n + 1; k <= n + 1; ++k)
-      lengthSeries(v, v.coincident ? k - 1 : k);
-    v.tension[n] = link.stiffness * (v.length[n] - (n == 0 ? link.rest_length : 0.0)) + link.damping * (n + 1) * v.length[n + 1];
-    v.force = -cauchy(v.tension, v.u, n, 0, n);
+    findLength(v, v.coincident ? n : n + 1);
+    v.force = -link.stiffness * (v.d[n] - link.rest_length * v.u[n]) - link.damping * v.lengthening;
   }
   v.turned[n] = Vec2(v.force.y(), -v.force.x());
+}
+
+/// What a spring does to its bodies, order n.
+void Flow::pull(LinkWork& link, int n)
+{
+  springForce(link, n);
+  const SpringSeries& v = link.series;
+  const auto act = [&](int index, const VectorSeries& arm, double sign) {
+    if (index < 0)
+      return;
+    BodyWork& w = work_[index];
+    const SizedSum torque = sizedProducts(arm, v.turned, n, 0, w.rotating ? n : 0);
+    w.act(sign * v.force, v.force.cwiseAbs(), sign * torque.sum.sum(), torque.size.sum());
+  };
+  act(link.first, v.from, 1.0);
+  act(link.second, v.to, -1.0);
 }
 
 }  // namespace block_world
