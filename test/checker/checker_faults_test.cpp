@@ -294,6 +294,14 @@ TEST(CheckerFaults, BlockThatJumpsWhereItComesToRest)
   expectFault(spoil(item, nothing), { "rest.bounded" }, {});
 }
 
+// The unknown forces may give ten times what damping takes until the hit, 10 x 0.04 N s/m x 3 m/s x 0.24 ms / 1 kg = 0.29 mm/s.
+TEST(CheckerFaults, VelocityFromNowhereWhereForcesChange)
+{
+  EXPECT_EQ(failures(judge(brakedIntoWall(2e-4), build(brakedIntoWall(2e-4)))).find("rest.bounded"), std::string::npos);
+  expectFault(spoil(brakedIntoWall(4e-4), nothing), { "rest.bounded" },
+              { "rest.velocity", "rest.position", "rest.normal_speed", "contact.point", "energy.balance_error" });
+}
+
 TEST(CheckerFaults, RestThatIsNeverQuiet)
 {
   Case item = rockingLoad();

@@ -79,6 +79,11 @@ TEST(Checker, PassesARestingLoadThatShifts)
   expectPass(rockingLoad(), { "rest.position", "rest.velocity" });
 }
 
+TEST(Checker, PassesAForceThatEndsWithAnEventBetweenSamples)
+{
+  expectPass(brakedIntoWall(), { "rest.bounded" });
+}
+
 TEST(Checker, PassesALongerSampleInterval)
 {
   const checker::Report report = judge(dampedFlight(), build(dampedFlight(), 0.05));

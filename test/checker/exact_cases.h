@@ -292,4 +292,31 @@ inline Case rockingLoad()
   return item;
 }
 
+/// Slides weightless on the floor, braked, and hits a wall flat between two samples: all that acts ends with the event. Then it leaves the
+/// floor at a speed of `lift`, which nothing explains.
+inline Case brakedIntoWall(double lift = 0.0)
+{
+  Case item;
+  item.scene = "{elasticity: 0, damping: 0.04, walls: {bottom: 0, right: 1}, blocks: [{name: a, size: [1, 1], pose: [0, 0.5, 0], "
+               "velocity: [3, 0, 0]}]}";
+  item.duration = 0.5;
+  const double hit = -std::log(1 - 0.04 * 0.5 / 3) / 0.04, speed = 3 - 0.04 * 0.5;
+  const auto motion = [=](double t) {
+    return t < hit ? stateOf(75 * (1 - std::exp(-0.04 * t)), 0.5, 0, 3 * std::exp(-0.04 * t), 0, 0) :
+                     stateOf(0.5, 0.5 + lift * (t - hit), 0, 0, lift, 0);
+  };
+  item.movers = { { 1, 1.0 / 6.0, motion } };
+  for (const double y : { 0.0, 1.0 })
+    item.events.push_back(row(hit, Kind::Impact, 0, 1, Vec2(1, y), Vec2(-1, 0), -speed, 0.5 * speed));
+  item.damping_loss = [=](double t) { return 4.5 - 0.5 * std::pow(3 - 0.04 * motion(t).position.x(), 2); };
+  item.impact_loss = Steps{ { { hit, 0.5 * speed * speed } } };
+  item.rest_from = 0.0;
+  item.rests = { row(0, Kind::Rest, 0, 2, Vec2(0, 0), Vec2(0, 1), 0, 0), row(0, Kind::Rest, 0, 2, Vec2(0, 0), Vec2(0, 1), 0, 0) };
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = motion(t).position.x() - 0.5;
+    rests[1].point.x() = motion(t).position.x() + 0.5;
+  };
+  return item;
+}
+
 }  // namespace exact

@@ -248,8 +248,6 @@ void Replay::push(const ContactRow& row)
     states_[body].velocity += impulse / drive_->bodies[body].mass;
     states_[body].omega += cross(arm, impulse) / motion_.inertia(*drive_, body);
     pushed_[body] += std::abs(row.impulse) * Vec2(1.0, arm.norm());
-    kick_[body].force += impulse;
-    kick_[body].torque += cross(arm, impulse);
   }
 }
 

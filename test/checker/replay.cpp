@@ -48,8 +48,8 @@ Replay::Replay(const Scene& scene, const Run& run, const Timeline& timeline, con
   accounts_.resize(run.times.size());
   held_.resize(run.bodies);
   pushed_.resize(run.bodies);
-  kick_.resize(run.bodies);
   leaning_.resize(run.bodies);
+  demand_.resize(clusters);
   moved_.resize(run.bodies);
   island_parent_.resize(clusters);
   resting_.resize(clusters);
@@ -120,7 +120,7 @@ void Replay::checkInterval(size_t sample)
   std::fill(clock_.begin(), clock_.end(), begin_);
   std::fill(lost_.begin(), lost_.end(), 0);
   std::fill(pushed_.begin(), pushed_.end(), Vec2::Zero());
-  std::fill(kick_.begin(), kick_.end(), Load());
+  std::fill(demand_.begin(), demand_.end(), 0.0);
   std::fill(moved_.begin(), moved_.end(), 0);
   RowRange rows(rows_end_[sample - 1], rows_end_[sample]);
   if (sample == 1 && start_rows_pending_)
@@ -230,12 +230,18 @@ void Replay::classify(size_t sample)
 
 void Replay::bring(int cluster, double time)
 {
-  if (lost_[cluster] || clock_[cluster] == time)
+  const double span = time - clock_[cluster];
+  if (span == 0.0)
     return;
-  const Power work = motion_.advance(cluster, *drive_, held_, time - clock_[cluster], states_);
   clock_[cluster] = time;
+  const std::vector<State> from = resting_[cluster] ? states_ : std::vector<State>();
+  Power work;
+  if (lost_[cluster])
+    drift(cluster, span);
+  else
+    work = motion_.advance(cluster, *drive_, held_, span, states_);
   if (resting_[cluster])
-    return;
+    return demand(cluster, span, from, states_);
   account_->thrust += work.thrust;
   account_->damping += work.damping;
 }
@@ -289,21 +295,22 @@ void Replay::account(const Change& change)
   }
 }
 
-// Where free bodies are at the next sample, against where the file says they are.
+// Where bodies are at the next sample, against where the file says they are.
 void Replay::land(size_t sample)
 {
-  for (size_t i = 0; i < run_.bodies; ++i)
+  const int clusters = static_cast<int>(clock_.size());
+  for (int cluster = 0; cluster < clusters; ++cluster)
+    if (regime(sample, cluster) != Regime::Smooth)
+      bring(cluster, end_);
+  for (int cluster = 0; cluster < clusters; ++cluster)
   {
-    const int body = static_cast<int>(i);
-    if (!scene_.movable(body))
-      continue;
-    const int cluster = motion_.clusterOf(body);
-    if (regime(sample, cluster) == Regime::Broken)
-      bound(body, sample);
-    if (regime(sample, cluster) != Regime::Flight)
-      continue;
-    bring(cluster, end_);
-    compare(body, states_[i], run_.state(sample, body));
+    for (const int body : motion_.clusters()[cluster])
+    {
+      if (regime(sample, cluster) == Regime::Flight)
+        compare(body, states_[body], run_.state(sample, body));
+      else if (regime(sample, cluster) == Regime::Broken)
+        bound(body, sample);
+    }
   }
   std::copy_n(run_.states.begin() + sample * run_.bodies, run_.bodies, states_.begin());
   const std::vector<Change>& changes = timeline_.changes();
@@ -312,43 +319,65 @@ void Replay::land(size_t sample)
     account(changes[next]);
 }
 
-// All that may press somewhere in a body's island: what is applied to its bodies, and the force that keeps what turns on
-// its circles.
-double Replay::islandForce(int body, size_t sample)
+// Contact forces that are not known leave the velocities what the listed impulses make them, as far as they balance what is applied.
+void Replay::drift(int cluster, double span)
 {
-  double force = 0.0;
-  for (size_t i = 0; i < run_.bodies; ++i)
+  for (const int body : motion_.clusters()[cluster])
   {
-    const int other = static_cast<int>(i);
-    if (!scene_.movable(other) || islandOf(motion_.clusterOf(other)) != islandOf(motion_.clusterOf(body)))
-      continue;
-    const double omega = std::max(std::abs(run_.state(sample - 1, other).omega), std::abs(run_.state(sample, other).omega));
-    const double radius = scene_.blocks[i].shape.radius;
-    std::vector<Load> applied(run_.bodies);
-    motion_.loads(motion_.clusterOf(other), *drive_, states_, applied);
-    force += applied[i].force.norm() + std::abs(applied[i].torque) / radius + drive_->bodies[i].mass * omega * omega * radius;
+    states_[body].position += span * states_[body].velocity;
+    states_[body].angle += span * states_[body].omega;
   }
-  return force;
 }
 
-// Contact forces between the samples are unknown here, but hardly ten times those at the samples and of what turns: enough to find what
-// is gross.
+// What contact forces may have to balance from one event to the next: what is applied, and what keeps a point of contact on a circle of the
+// body and on a face that turns, m (omega^2 r + 2 omega u) where it slides by u. The larger of the values at both ends stands for all.
+void Replay::demand(int cluster, double span, const std::vector<State>& from, const std::vector<State>& to)
+{
+  std::vector<Load> loads[2] = { std::vector<Load>(run_.bodies), std::vector<Load>(run_.bodies) };
+  motion_.loads(cluster, *drive_, from, loads[0]);
+  motion_.loads(cluster, *drive_, to, loads[1]);
+  for (const int body : motion_.clusters()[cluster])
+  {
+    const double radius = scene_.blocks[body].shape.radius;
+    const auto force = [&](const std::vector<State>& states, const Load& load) {
+      const double omega = std::abs(states[body].omega);
+      return load.force.norm() + std::abs(load.torque) / radius +
+             drive_->bodies[body].mass * omega * (omega * radius + 2.0 * slidingSpeed(body, states));
+    };
+    demand_[cluster] += span * std::max(force(from, loads[0][body]), force(to, loads[1][body]));
+  }
+}
+
+/// How fast a body passes those on which it rests.
+double Replay::slidingSpeed(int body, const std::vector<State>& states) const
+{
+  const auto velocity = [&](int of) { return scene_.movable(of) ? states[of].velocity : Vec2(Vec2::Zero()); };
+  double fastest = 0.0;
+  for (const auto& [a, b] : rest_pairs_)
+    if (a == body || b == body)
+      fastest = std::max(fastest, (velocity(a) - velocity(b)).norm());
+  return fastest;
+}
+
+// Contact forces between the samples are unknown here, but hardly ten times those at the samples and what they may have to balance in their
+// island: enough to find what is gross.
 void Replay::bound(int body, size_t sample)
 {
-  const State &from = run_.state(sample - 1, body), &to = run_.state(sample, body);
+  const State &wanted = states_[body], &found = run_.state(sample, body);
   const double h = end_ - begin_, radius = scene_.blocks[body].shape.radius;
   const double mass = drive_->bodies[body].mass, inertia = motion_.inertia(*drive_, body);
-  const double force = 10.0 * (leaning_[body] + islandForce(body, sample));
-  const double speed = from.velocity.norm() + to.velocity.norm() + radius * (std::abs(from.omega) + std::abs(to.omega));
-  const double gain = h * force / mass, turn = h * (force * radius + 2.0 * pushed_[body].x() * speed) / inertia;
-  const double move = h * (gain + pushed_[body].x() / mass) + scene_.tolerance;
-  const double swing = h * (turn + pushed_[body].y() / inertia) + scene_.tolerance / radius;
-  checks_.bounded.add(
-      std::max({ (to.velocity - from.velocity - kick_[body].force / mass).norm() / (gain + relative_error),
-                 std::abs(to.omega - from.omega - kick_[body].torque / inertia) / (turn + relative_error),
-                 (to.position - from.position - h * from.velocity).norm() / move,
-                 std::abs(to.angle - from.angle - h * from.omega) / swing }),
-      1.0, end_, body);
+  double balanced = 0.0;
+  for (size_t other = 0; other < clock_.size(); ++other)
+    if (islandOf(static_cast<int>(other)) == islandOf(motion_.clusterOf(body)))
+      balanced += demand_[other];
+  const double impulse = 10.0 * (h * leaning_[body] + balanced) + relative_error * (mass + pushed_[body].x());
+  // The listed impulses act where the contact points are; what is not known is how far the centre has gone meanwhile.
+  const double gain = impulse / mass, move = h * gain + scene_.tolerance;
+  const double turn = (impulse * radius + pushed_[body].x() * move) / inertia + relative_error;
+  checks_.bounded.add(std::max({ (found.velocity - wanted.velocity).norm() / gain, std::abs(found.omega - wanted.omega) / turn,
+                                 (found.position - wanted.position).norm() / move,
+                                 std::abs(found.angle - wanted.angle) / (h * turn + scene_.tolerance / radius) }),
+                      1.0, end_, body);
 }
 
 void Replay::compare(int body, const State& wanted, const State& found)

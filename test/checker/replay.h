@@ -72,9 +72,11 @@ private:
   void account(const Change& change);
   void land(size_t sample);
   void compare(int body, const State& wanted, const State& found);
-  double islandForce(int body, size_t sample);
-  void bound(int body, size_t sample);
   void bring(int cluster, double time);
+  void drift(int cluster, double span);
+  void demand(int cluster, double span, const std::vector<State>& from, const std::vector<State>& to);
+  double slidingSpeed(int body, const std::vector<State>& states) const;
+  void bound(int body, size_t sample);
   int islandOf(int cluster);
   bool known(int body);
 
@@ -115,11 +117,11 @@ private:
   std::vector<Load> held_;                       ///< contact forces at the interval's first sample
   std::vector<std::pair<int, int>> rest_pairs_;  ///< that rest at either sample or begin to in between; sorted
   std::vector<int> island_parent_;               ///< clusters joined by resting contacts
-  std::vector<char> resting_, lost_;             ///< per cluster; lost: its state is unknown after an event
+  std::vector<char> resting_, lost_;             ///< per cluster; lost: the forces on it are unknown after an event
   std::vector<char> eventful_;                   ///< per island root
   std::vector<double> clock_;                    ///< per cluster
+  std::vector<double> demand_;                   ///< per cluster: impulse of what contact forces may have to balance, N s
   std::vector<Vec2> pushed_;                     ///< per body: sums of |impulse| and of |impulse| x arm
-  std::vector<Load> kick_;                       ///< per body: impulse and its moment
   std::vector<double> leaning_;                  ///< per body: sum of the contact forces at both samples
   std::vector<char> moved_;  ///< per body: a rest began or ended near it, which may shift it by the tolerance
 };
