@@ -302,6 +302,19 @@ TEST(CheckerFaults, VelocityFromNowhereWhereForcesChange)
               { "rest.velocity", "rest.position", "rest.normal_speed", "contact.point", "energy.balance_error" });
 }
 
+// 1e-11 of the 5 J of gravity's energy go unseen.
+TEST(CheckerFaults, WorkOfARestingBlock)
+{
+  const auto shift = [](double EnergyRow::*column, double by) {
+    return [=](checker::Run& run) {
+      run.energy[30].*column += by;
+      run.energy[30].balance_error += column == &EnergyRow::damping_loss ? by : -by;
+    };
+  };
+  expectFault(spoil(brakedSlider(), shift(&EnergyRow::damping_loss, 2e-10)), { "energy.damping_loss" }, {});
+  expectFault(spoil(brakedSlider(), shift(&EnergyRow::thrust_work, 2e-10)), { "energy.thrust_work" }, {});
+}
+
 TEST(CheckerFaults, RestThatIsNeverQuiet)
 {
   Case item = rockingLoad();

@@ -292,6 +292,37 @@ inline Case rockingLoad()
   return item;
 }
 
+/// Slides to and fro on the floor on a stiff spring, braked and pushed by a wrench: powers change much from sample to sample.
+inline Case brakedSlider()
+{
+  Case item;
+  item.scene = "{gravity: 0.01, damping: 2.0e4, walls: {bottom: 0}, blocks: [{name: a, size: [1, 1], mass: 1000, pose: [7.0e-4, 0.5, 0]}],"
+               " springs: [{from: {block: a, point: [0, 0]}, to: {point: [0, 0.5]}, stiffness: 1.0e7, rest_length: 0, damping: 2.0e4}],"
+               " inputs: [{time: 0, wrench: {block: a, force: [2000, 0]}}]}";
+  item.duration = 0.1;
+  const double braking = 20.0, omega = std::sqrt(1e4 - braking * braking), centre = 2e-4, start = 5e-4;
+  const auto motion = [=](double t) {
+    const double left = start * std::exp(-braking * t);
+    return stateOf(centre + left * (std::cos(omega * t) + braking / omega * std::sin(omega * t)), 0.5, 0,
+                   -left * 1e4 / omega * std::sin(omega * t), 0, 0);
+  };
+  const auto stored = [=](double t) { return 5e6 * std::pow(motion(t).position.x(), 2); };
+  item.movers = { { 1000, 1000 / 6.0, motion } };
+  item.gravity = [](double) { return 0.01; };
+  item.spring = stored;
+  item.thrust_work = [=](double t) { return 2000 * (motion(t).position.x() - motion(0).position.x()); };
+  item.damping_loss = [=, work = item.thrust_work](double t) {
+    return stored(0) + work(t) - stored(t) - 500 * motion(t).velocity.squaredNorm();
+  };
+  item.rest_from = 0.0;
+  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 5), row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 5) };
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = motion(t).position.x() - 0.5;
+    rests[1].point.x() = motion(t).position.x() + 0.5;
+  };
+  return item;
+}
+
 /// Slides weightless on the floor, braked, and hits a wall flat between two samples: all that acts ends with the event. Then it leaves the
 /// floor at a speed of `lift`, which nothing explains.
 inline Case brakedIntoWall(double lift = 0.0)

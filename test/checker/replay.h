@@ -22,6 +22,7 @@ struct Account
 {
   bool known = true;
   double thrust = 0.0, spring = 0.0, command = 0.0, damping = 0.0, impact = 0.0;
+  double thrust_error = 0.0, damping_error = 0.0;  ///< how far integrals of powers at the samples may be off
 };
 
 /// Starts every sample interval at its first sample, moves the bodies freely, applies the listed impulses at the listed
