@@ -85,6 +85,11 @@ TEST(Checker, PassesPowersThatChangeMuchBetweenSamples)
   expectPass(brakedSlider(), { "energy.damping_loss", "energy.thrust_work", "rest.velocity" });
 }
 
+TEST(Checker, PassesForcesWhoseDifferencesCancel)
+{
+  expectPass(cancellingDifferences(), { "rest.velocity", "rest.position" });
+}
+
 TEST(Checker, PassesAForceThatEndsWithAnEventBetweenSamples)
 {
   expectPass(brakedIntoWall(), { "rest.bounded" });

@@ -323,6 +323,35 @@ inline Case brakedSlider()
   return item;
 }
 
+/// Slides to and fro on the floor on a stiff spring. Where it starts, the parts of orders 4 and 5 of its acceleration's integral over the first
+/// sample interval, 19/720 of the fourth difference and 3/160 of the fifth one (Adams and Moulton), cancel.
+inline Case cancellingDifferences()
+{
+  Case item;
+  const double omega = 100.0, turn = omega * 0.001, s = 2 * std::sin(turn / 2), c4 = 19.0 / 720, c5 = 3.0 / 160 * s;
+  const double start = std::atan(-(c4 + c5 * std::sin(turn / 2)) / (c5 * std::cos(turn / 2))) - 2 * turn;
+  const auto motion = [=](double t) {
+    return stateOf(5e-4 * std::cos(omega * t + start), 0.5, 0, -0.05 * std::sin(omega * t + start), 0, 0);
+  };
+  std::ostringstream scene;
+  scene.precision(17);
+  scene << "{gravity: 1, walls: {bottom: 0}, blocks: [{name: a, size: [1, 1], pose: [" << motion(0).position.x() << ", 0.5, 0], velocity: ["
+        << motion(0).velocity.x() << ", 0, 0]}], springs: [{from: {block: a, point: [0, 0]}, to: {point: [0, 0.5]}, stiffness: 1.0e4, "
+        << "rest_length: 0}]}";
+  item.scene = scene.str();
+  item.movers = { { 1, 1.0 / 6.0, motion } };
+  item.duration = 0.1;
+  item.gravity = [](double) { return 1.0; };
+  item.spring = [=](double t) { return 5e3 * std::pow(motion(t).position.x(), 2); };
+  item.rest_from = 0.0;
+  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0.5), row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0.5) };
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = motion(t).position.x() - 0.5;
+    rests[1].point.x() = motion(t).position.x() + 0.5;
+  };
+  return item;
+}
+
 /// Slides weightless on the floor, braked, and hits a wall flat between two samples: all that acts ends with the event. Then it leaves the
 /// floor at a speed of `lift`, which nothing explains.
 inline Case brakedIntoWall(double lift = 0.0)

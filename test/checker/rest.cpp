@@ -46,16 +46,16 @@ Weights weightsOf(size_t n, size_t start)
   return weights;
 }
 
-/// A window of n of `count` values that lies around [interval, interval + 1], or beside it by one where there are values.
+/// A window of n of `count` values that lies around [interval, interval + 1] where there are values.
 struct Window
 {
-  Window(size_t n, size_t interval, size_t count, int aside = 0) : n(n)
+  Window(size_t n, size_t interval, size_t count) : n(n)
   {
-    const size_t before = n / 2 - 1 - aside;
+    const size_t before = n / 2 - 1;
     start = interval < before ? 0 : std::min(interval - before, count - n);
     static const std::array<std::array<Weights, 5>, 7> table = [] {
       std::array<std::array<Weights, 5>, 7> all;
-      for (const size_t size : { 4, 6 })
+      for (const size_t size : { 4, 5, 6 })
       {
         for (size_t at = 0; at + 1 < size; ++at)
           all[size][at] = weightsOf(size, at);
@@ -93,6 +93,16 @@ struct Window
   size_t n, start;
   const Weights* weights;
 };
+
+double magnitude(double value)
+{
+  return std::abs(value);
+}
+
+double magnitude(const Vec2& value)
+{
+  return value.norm();
+}
 
 constexpr double force_error = 1e-9;    ///< relative; forces come from a linear solve that may be ill-conditioned
 constexpr double largest_guess = 1e-6;  ///< m/s or rad/s: an interval with a larger uncertainty is not judged
@@ -169,7 +179,8 @@ void RestMotion::checkStretch(int cluster, size_t first, size_t last)
 void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Instant>& instants, size_t first)
 {
   const double h = run_.times[sample] - run_.times[sample - 1];
-  const Window fine(6, sample - 1 - first, instants.size());
+  const size_t interval = sample - 1 - first;
+  const Window fine(6, interval, instants.size()), medium(5, interval, instants.size()), coarse(4, interval, instants.size());
   Account& account = replay_.account(sample);
   bool sure = true;
   for (size_t i = 0; i < motion_.clusters()[cluster].size(); ++i)
@@ -182,14 +193,12 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
     const Vec2 gain = h * fine.once(a);
     const double turn = h * fine.once(alpha);
     // The difference of two orders is an estimate of the finer one's error, not a bound: forces that grow by a fifth from sample to sample
-    // exceed it a few times over. It may vanish by chance, but not for three windows.
-    double guess = 0.0, turn_guess = 0.0;
-    for (const int aside : { -1, 0, 1 })
-    {
-      const Window coarse(4, sample - 1 - first, instants.size(), aside);
-      guess = std::max(guess, 30.0 * (gain - h * coarse.once(a)).norm());
-      turn_guess = std::max(turn_guess, 30.0 * std::abs(turn - h * coarse.once(alpha)));
-    }
+    // exceed it a few times over. One order's step may vanish by chance, or be undone by the next one's: their sizes count.
+    const auto doubt = [&](const auto& value) {
+      const auto low = coarse.once(value), middle = medium.once(value), high = fine.once(value);
+      return 30.0 * h * (magnitude(high - middle) + magnitude(middle - low));
+    };
+    const double guess = doubt(a), turn_guess = doubt(alpha);
     sure = sure && guess < largest_guess && turn_guess < largest_guess;
     if (!sure)
       break;
@@ -208,7 +217,7 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
                            std::abs(to.angle - from.angle - swing) / limits.angle),
                   1.0, run_.times[sample], body);
   }
-  addWork(h, sample - 1 - first, instants, account);
+  addWork(h, interval, instants, account);
   account.known = account.known && sure;
   (sure ? judged_ : skipped_) += 1.0;
 }
