@@ -148,7 +148,7 @@ void Replay::strike(RowRange rows)
     for (const int body : { row.a, row.b })
     {
       if (scene_.movable(body))
-        bring(motion_.clusterOf(body), row.time);
+        bringIsland(motion_.clusterOf(body), row.time);
     }
   }
   if (events.empty())

@@ -47,6 +47,7 @@ Replay::Replay(const Scene& scene, const Run& run, const Timeline& timeline, con
   regimes_.assign(run.times.size() * clusters, Regime::Broken);
   accounts_.resize(run.times.size());
   held_.resize(run.bodies);
+  none_.resize(run.bodies);
   pushed_.resize(run.bodies);
   leaning_.resize(run.bodies);
   demand_.resize(clusters);
@@ -154,6 +155,7 @@ void Replay::holdForces(size_t sample)
   std::fill(leaning_.begin(), leaning_.end(), 0.0);
   std::fill(resting_.begin(), resting_.end(), 0);
   std::iota(island_parent_.begin(), island_parent_.end(), 0);
+  rests_.clear();
   rest_pairs_.clear();
   const size_t first = sample == 0 ? 0 : rows_end_[sample - 1];
   for (size_t i = first; i < rows_end_[sample + 1]; ++i)
@@ -161,6 +163,8 @@ void Replay::holdForces(size_t sample)
     const ContactRow& row = run_.contacts[i];
     if (row.kind == Kind::Impact)
       continue;
+    if (row.time >= begin_)
+      rests_.push_back(&row);
     rest_pairs_.push_back(std::minmax(row.a, row.b));
     if (scene_.movable(row.a) && scene_.movable(row.b))
       island_parent_[islandOf(motion_.clusterOf(row.a))] = islandOf(motion_.clusterOf(row.b));
@@ -234,14 +238,10 @@ void Replay::bring(int cluster, double time)
   if (span == 0.0)
     return;
   clock_[cluster] = time;
-  const std::vector<State> from = resting_[cluster] ? states_ : std::vector<State>();
-  Power work;
-  if (lost_[cluster])
-    drift(cluster, span);
-  else
-    work = motion_.advance(cluster, *drive_, held_, span, states_);
+  // Contact forces that are not known are left out.
+  const Power work = motion_.advance(cluster, *drive_, lost_[cluster] ? none_ : held_, span, states_);
   if (resting_[cluster])
-    return demand(cluster, span, from, states_);
+    return;
   account_->thrust += work.thrust;
   account_->damping += work.damping;
 }
@@ -272,7 +272,7 @@ void Replay::applyChange(const Change& change)
 {
   for (size_t cluster = 0; cluster < clock_.size(); ++cluster)
   {
-    bring(static_cast<int>(cluster), change.time);
+    bringIsland(static_cast<int>(cluster), change.time);
     // A resting body's contact forces jump with the drive, and only their values at the samples are known.
     lost_[cluster] |= resting_[cluster];
     account_->known = account_->known && !lost_[cluster];
@@ -301,7 +301,7 @@ void Replay::land(size_t sample)
   const int clusters = static_cast<int>(clock_.size());
   for (int cluster = 0; cluster < clusters; ++cluster)
     if (regime(sample, cluster) != Regime::Smooth)
-      bring(cluster, end_);
+      bringIsland(cluster, end_);
   for (int cluster = 0; cluster < clusters; ++cluster)
   {
     for (const int body : motion_.clusters()[cluster])
@@ -317,67 +317,6 @@ void Replay::land(size_t sample)
   const size_t next = timeline_.firstAfter(end_) - 1;
   if (changes[next].time == end_)
     account(changes[next]);
-}
-
-// Contact forces that are not known leave the velocities what the listed impulses make them, as far as they balance what is applied.
-void Replay::drift(int cluster, double span)
-{
-  for (const int body : motion_.clusters()[cluster])
-  {
-    states_[body].position += span * states_[body].velocity;
-    states_[body].angle += span * states_[body].omega;
-  }
-}
-
-// What contact forces may have to balance from one event to the next: what is applied, and what keeps a point of contact on a circle of the
-// body and on a face that turns, m (omega^2 r + 2 omega u) where it slides by u. The larger of the values at both ends stands for all.
-void Replay::demand(int cluster, double span, const std::vector<State>& from, const std::vector<State>& to)
-{
-  std::vector<Load> loads[2] = { std::vector<Load>(run_.bodies), std::vector<Load>(run_.bodies) };
-  motion_.loads(cluster, *drive_, from, loads[0]);
-  motion_.loads(cluster, *drive_, to, loads[1]);
-  for (const int body : motion_.clusters()[cluster])
-  {
-    const double radius = scene_.blocks[body].shape.radius;
-    const auto force = [&](const std::vector<State>& states, const Load& load) {
-      const double omega = std::abs(states[body].omega);
-      return load.force.norm() + std::abs(load.torque) / radius +
-             drive_->bodies[body].mass * omega * (omega * radius + 2.0 * slidingSpeed(body, states));
-    };
-    demand_[cluster] += span * std::max(force(from, loads[0][body]), force(to, loads[1][body]));
-  }
-}
-
-/// How fast a body passes those on which it rests.
-double Replay::slidingSpeed(int body, const std::vector<State>& states) const
-{
-  const auto velocity = [&](int of) { return scene_.movable(of) ? states[of].velocity : Vec2(Vec2::Zero()); };
-  double fastest = 0.0;
-  for (const auto& [a, b] : rest_pairs_)
-    if (a == body || b == body)
-      fastest = std::max(fastest, (velocity(a) - velocity(b)).norm());
-  return fastest;
-}
-
-// Contact forces between the samples are unknown here, but hardly ten times those at the samples and what they may have to balance in their
-// island: enough to find what is gross.
-void Replay::bound(int body, size_t sample)
-{
-  const State &wanted = states_[body], &found = run_.state(sample, body);
-  const double h = end_ - begin_, radius = scene_.blocks[body].shape.radius;
-  const double mass = drive_->bodies[body].mass, inertia = motion_.inertia(*drive_, body);
-  double balanced = 0.0;
-  for (size_t other = 0; other < clock_.size(); ++other)
-    if (islandOf(static_cast<int>(other)) == islandOf(motion_.clusterOf(body)))
-      balanced += demand_[other];
-  const double impulse = 10.0 * (h * leaning_[body] + balanced) + relative_error * (mass + pushed_[body].x());
-  // The listed impulses act where the contact points are; what is not known is how far the centre has gone meanwhile.
-  const double gain = impulse / mass, move = h * gain + scene_.tolerance;
-  const double turn = (impulse * radius + pushed_[body].x() * move) / inertia + relative_error;
-  checks_.bounded.add(std::max({ (found.velocity - wanted.velocity).norm() / gain, std::abs(found.omega - wanted.omega) / turn,
-                                 (found.position - wanted.position).norm() / move,
-                                 std::abs(found.angle - wanted.angle) / (h * turn + scene_.tolerance / radius) }),
-                      1.0, end_, body);
 }
 
 void Replay::compare(int body, const State& wanted, const State& found)
