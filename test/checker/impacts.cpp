@@ -103,7 +103,7 @@ double Replay::slack(const ContactRow& row, double since)
       continue;
     const double rate =
         1.0 + fastestRate(islandOf(motion_.clusterOf(body))) + sliding / scene_.blocks[body].shape.radius;
-    value += since * since * since * rate * (rate * rate + 10.0 * leaning_[body] / drive_->bodies[body].mass);
+    value += since * since * since * rate * (rate * rate + 10.0 * leaning_[body].x() / drive_->bodies[body].mass);
   }
   return value;
 }

@@ -152,7 +152,7 @@ bool Replay::known(int body)
 void Replay::holdForces(size_t sample)
 {
   std::fill(held_.begin(), held_.end(), Load());
-  std::fill(leaning_.begin(), leaning_.end(), 0.0);
+  std::fill(leaning_.begin(), leaning_.end(), Vec2::Zero());
   std::fill(resting_.begin(), resting_.end(), 0);
   std::iota(island_parent_.begin(), island_parent_.end(), 0);
   rests_.clear();
@@ -175,7 +175,8 @@ void Replay::holdForces(size_t sample)
       if (!scene_.movable(body))
         continue;
       resting_[motion_.clusterOf(body)] = 1;
-      leaning_[body] += std::abs(row.impulse);
+      const Vec2 arm = row.point - run_.state(row.time == begin_ ? sample : sample + 1, body).position;
+      leaning_[body] += std::abs(row.impulse) * Vec2(1.0, std::abs(cross(arm, row.normal)));
       if (row.time != begin_)
         continue;
       const Vec2 force = (body == row.a ? 1.0 : -1.0) * row.impulse * row.normal;

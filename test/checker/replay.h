@@ -126,7 +126,7 @@ private:
   std::vector<double> demand_;                   ///< per island root: what contact forces may change, sqrt(kg) m/s
   std::vector<double> clock_;                    ///< per cluster
   std::vector<Vec2> pushed_;                     ///< per body: sums of |impulse| and of |impulse| x arm
-  std::vector<double> leaning_;                  ///< per body: sum of the contact forces at both samples
+  std::vector<Vec2> leaning_;                    ///< per body: sums of the contact forces at both samples and of their moments
   std::vector<char> moved_;  ///< per body: a rest began or ended near it, which may shift it by the tolerance
 };
 

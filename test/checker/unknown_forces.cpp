@@ -6,7 +6,8 @@
 // The part of Replay that looks at bodies whose contact forces change between the samples, where no file tells them. By Gauss's principle of
 // least constraint they change the accelerations no more than it takes: with squares of accelerations weighed by mass and moment of inertia
 // (2 T of the change), no more than any other change that keeps the contacts. One that does stops what is applied, and sends all bodies
-// along the paths that turning and sliding force upon them. So what a body gains beyond what is applied and listed is bounded.
+// along the paths that turning and sliding force upon them. A wedge makes these paths longer, and there the samples show forces as large.
+// So what a body gains beyond what is applied and listed is bounded.
 
 namespace checker
 {
@@ -76,9 +77,12 @@ void Replay::bound(int body, size_t sample)
   const double h = end_ - begin_, radius = scene_.blocks[body].shape.radius;
   const double mass = drive_->bodies[body].mass, inertia = motion_.inertia(*drive_, body);
   const double change = demand_[islandOf(motion_.clusterOf(body))];
-  const double gain = change / std::sqrt(mass) + relative_error * (1.0 + pushed_[body].x() / mass), move = h * gain + scene_.tolerance;
+  const Vec2 shown = h * leaning_[body];
+  const double gain = std::max(change / std::sqrt(mass), shown.x() / mass) + relative_error * (1.0 + pushed_[body].x() / mass);
   // The listed impulses act where the contact points are; what is not known is how far the centre has gone meanwhile.
-  const double turn = change / std::sqrt(inertia) + (pushed_[body].x() * move + relative_error * pushed_[body].y()) / inertia + relative_error;
+  const double move = h * gain + scene_.tolerance;
+  const double turn = std::max(change / std::sqrt(inertia), shown.y() / inertia) + relative_error +
+                      (pushed_[body].x() * move + relative_error * pushed_[body].y()) / inertia;
   checks_.bounded.add(std::max({ (found.velocity - wanted.velocity).norm() / gain, std::abs(found.omega - wanted.omega) / turn,
                                  (found.position - wanted.position).norm() / move,
                                  std::abs(found.angle - wanted.angle) / (h * turn + scene_.tolerance / radius) }),
