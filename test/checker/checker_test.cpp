@@ -55,6 +55,22 @@ TEST(Checker, PassesASmallPullWhereABounceIsCaptured)
   expectPass(pullAndPush(item, item.rest_from, 0.012), { "contact.sign", "replay.linear_momentum" });
 }
 
+TEST(Checker, PassesAStartThatIsSqueezed)
+{
+  expectPass(squeezedAtTheStart(), { "start.state" });
+}
+
+// Turned a little beyond the tolerance it overlaps what squeezed it.
+TEST(Checker, PassesAHitAfterASqueeze)
+{
+  const checker::Report report = judge(squeezedAndHit(), build(squeezedAndHit()));
+  for (const char* name : { "impact.restitution", "impact.impulse", "impact.approach" })
+  {
+    EXPECT_EQ(report.find(name)->count(), 1) << name;
+    EXPECT_EQ(report.find(name)->violations(), 0) << failures(report);
+  }
+}
+
 TEST(Checker, PassesDampedFlight)
 {
   expectPass(dampedFlight(), { "flight.position", "energy.damping_loss", "momentum.linear" });

@@ -379,4 +379,39 @@ inline Case brakedIntoWall(double lift = 0.0)
   return item;
 }
 
+/// Falls flat on the floor at the start while two walls squeeze it: their impulses undo each other but for the rounding.
+inline Case squeezedAtTheStart()
+{
+  Case item;
+  item.scene = "{elasticity: 0, walls: {left: -0.5, right: 0.5, bottom: 0}, blocks: [{name: a, size: [1, 1], pose: [0, 0.5, 0], "
+               "velocity: [0, -1, 0]}]}";
+  for (const double side : { -0.5, 0.5 })
+  {
+    const int wall = side < 0 ? 1 : 2;
+    for (const double y : { 0.0, 1.0 })
+      item.events.push_back(row(0, Kind::Impact, 0, wall, Vec2(side, y), Vec2(side < 0 ? 1 : -1, 0), 0, 1e5 / (4 * y + 3)));
+    item.events.push_back(row(0, Kind::Impact, 0, 3, Vec2(side, 0), Vec2(0, 1), -1, 0.5));
+  }
+  item.movers = { { 1, 1.0 / 6.0, [](double) { return stateOf(0, 0.5, 0, 0, 0, 0); } } };
+  return item;
+}
+
+/// Hit beside its centre just after floor and ceiling squeezed it: what rounding is left of their moments turns it.
+inline Case squeezedAndHit()
+{
+  Case item;
+  item.scene = "{elasticity: 0.5, walls: {bottom: 0, top: 1}, blocks: [{name: a, size: [1, 1], pose: [0, 0.5, 0]}, {name: b, vertices: "
+               "[[0, -0.1], [0.5, 0], [0, 0.1], [-0.5, 0]], pose: [-1.0005, 0.8, 0], velocity: [1, 0, 0]}]}";
+  const double hit = 0.0005, j = 1.5 / (2 + 0.3 * 0.3 * 6);
+  for (const int wall : { 2, 3 })
+    for (const double x : { 0.5, -0.5 })
+      item.events.push_back(row(0.0003, Kind::Impact, 0, wall, Vec2(x, wall - 2), Vec2(0, 5 - 2 * wall), 0, 1e7 / (46 * x + 30)));
+  item.events.push_back(row(hit, Kind::Impact, 0, 1, Vec2(-0.5, 0.8), Vec2(1, 0), -1, j));
+  item.movers = { { 1, 1.0 / 6.0, Pieces{ 0, { { 0, stateOf(0, 0.5, 0, 0, 0, 0) }, { hit, stateOf(0, 0.5, 0, j, 0, -1.8 * j) } } } },
+                  { 1, 1.0 / 12.0, Pieces{ 0, { { 0, stateOf(-1.0005, 0.8, 0, 1, 0, 0) }, { hit, stateOf(-1, 0.8, 0, 1 - j, 0, 0) } } } } };
+  item.impact_loss = Steps{ { { hit, 0.25 * j } } };
+  item.duration = 0.001;
+  return item;
+}
+
 }  // namespace exact

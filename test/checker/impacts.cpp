@@ -264,18 +264,21 @@ void Replay::loseIsland(int body)
 void Replay::checkSingle(const ContactRow& row, const std::vector<State>& before)
 {
   const double elastic = elasticity(scene_, *drive_, row.a, row.b);
-  double speed = 0.0, yielding = 0.0;
+  double speed = 0.0, kicks = 0.0, yielding = 0.0;
   for (const int body : { row.a, row.b })
   {
     if (!scene_.movable(body))
       continue;
     const State& state = before[body];
     speed += state.velocity.norm() + scene_.blocks[body].shape.radius * std::abs(state.omega);
+    kicks += pushed_[body].x() / drive_->bodies[body].mass +
+             scene_.blocks[body].shape.radius * pushed_[body].y() / motion_.inertia(*drive_, body);
     const double arm = cross(row.point - state.position, row.normal);
     yielding += 1.0 / drive_->bodies[body].mass + arm * arm / motion_.inertia(*drive_, body);
   }
   const double in = normalVelocity(row, before), out = normalVelocity(row, states_);
-  const double limit = 10.0 * relative_error * std::max(1.0, speed);
+  // The speeds follow from those at the sample before, and carry the rounding of all impulses since.
+  const double limit = relative_error * (10.0 * std::max(1.0, speed) + kicks);
   checks_.approach.add(std::abs(row.normal_velocity - in), limit, row.time, row.a, row.b);
   // A bounce too low for the tolerance to tell from rest may be taken for rest, be it the one that comes or the one that would follow.
   const double least = elastic * std::abs(in) <= captureSpeed(row, before) ? 0.0 : elastic;

@@ -78,6 +78,7 @@ void Replay::checkStart()
     after[body].omega = scene_.blocks[body].start.omega;
   }
   const std::vector<State> before = after;
+  std::vector<Vec2> pushed(run_.bodies, Vec2::Zero());
   const Drive& drive = timeline_.at(0.0);
   for (size_t i = 0; i < rows_end_[0]; ++i)
   {
@@ -88,12 +89,17 @@ void Replay::checkStart()
         continue;
       const Vec2 impulse = (body == row.a ? 1.0 : -1.0) * row.impulse * row.normal;
       after[body].velocity += impulse / drive.bodies[body].mass;
-      after[body].omega += cross(row.point - after[body].position, impulse) / motion_.inertia(drive, body);
+      const Vec2 arm = row.point - after[body].position;
+      after[body].omega += cross(arm, impulse) / motion_.inertia(drive, body);
+      pushed[body] += std::abs(row.impulse) * Vec2(1.0, arm.norm());
     }
   }
   const auto difference = [&](const std::vector<State>& wanted, int body) {
     const State& found = run_.state(0, body);
-    const Limits limits = stateLimits(found, scene_.blocks[body].shape.radius, 0.0);
+    // Impulses of a jam undo each other but for their rounding.
+    Limits limits = stateLimits(found, scene_.blocks[body].shape.radius, 0.0);
+    limits.velocity += relative_error * pushed[body].x() / drive.bodies[body].mass;
+    limits.omega += relative_error * pushed[body].y() / motion_.inertia(drive, body);
     return std::max((found.velocity - wanted[body].velocity).norm() / limits.velocity,
                     std::abs(found.omega - wanted[body].omega) / limits.omega);
   };
