@@ -282,6 +282,7 @@ TEST(CheckerFaults, RestingBlockThatSinks)
               { "energy.columns", "energy.balance_error", "rest.velocity", "rest.position", "energy.conserved" });
 }
 
+// They may shift it by 9.8 m/s^2 x (1 ms)^2, and the coming to rest by the tolerance of 1e-6 m.
 TEST(CheckerFaults, BlockThatJumpsWhereItComesToRest)
 {
   Case item = flatDrop(0.5);
@@ -289,16 +290,55 @@ TEST(CheckerFaults, BlockThatJumpsWhereItComesToRest)
   const auto right = item.movers[0].state;
   item.movers[0].state = [=](double t) {
     State state = right(t);
-    state.position.x() += t >= from ? 0.01 : 0.0;
+    state.position.x() += t >= from ? 1.2e-5 : 0.0;
     return state;
   };
   const auto rows = item.update_rests;
   item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
     rows(t, rests);
     for (ContactRow& rest : rests)
-      rest.point.x() += 0.01;
+      rest.point.x() += 1.2e-5;
   };
   expectFault(spoil(item, nothing), { "rest.bounded" }, {});
+}
+
+// Until the hit contact forces may have to balance what damping takes, 0.04 N s/m x 2.98 m/s x 0.224 ms / 1 kg = 0.0267 mm/s.
+TEST(CheckerFaults, VelocityFromNowhereWhereForcesChange)
+{
+  EXPECT_EQ(spoil(brakedIntoWall(2e-5), nothing).find("rest.bounded")->violations(), 0);
+  expectFault(spoil(brakedIntoWall(3e-5), nothing), { "rest.bounded" },
+              { "rest.velocity", "rest.position", "rest.normal_speed", "contact.point", "energy.balance_error" });
+}
+
+// Where it comes to rest, contact forces may undo its weight for the interval, sqrt(m) x 9.8 m/s^2 x 1 ms: 9.8 mm/s. Upwards they do for the
+// last 0.795 ms, 7.8 mm/s, which leaves 5.9 mm/s sideways. They may turn it by that over sqrt(1/6 m^2), and as the samples show moments of
+// 2 x 4.9 N x 0.5 m about it, by 4.9 N m x 1 ms / (1/6 kg m^2) = 29 mrad/s.
+TEST(CheckerFaults, MotionFromNowhereWhereABlockComesToRest)
+{
+  const auto faster = [](double along, double turning) {
+    return spoil(flatDrop(0.5), [=](checker::Run& run) {
+      run.states[1652].velocity.x() += along;
+      run.states[1652].omega += turning;
+    });
+  };
+  for (const auto& report : { faster(0.0055, 0.0), faster(0.0, 0.028) })
+    EXPECT_EQ(report.find("rest.bounded")->violations(), 0) << failures(report);
+  for (const auto& report : { faster(0.0065, 0.0), faster(0.0, 0.031) })
+    expectFault(report, { "rest.bounded" },
+                { "rest.velocity", "rest.position", "rest.normal_speed", "energy.columns", "energy.no_gain", "energy.balance_error" });
+}
+
+// 1e-11 of the 5 J of gravity's energy go unseen.
+TEST(CheckerFaults, WorkOfARestingBlock)
+{
+  const auto shift = [](double EnergyRow::*column, double by) {
+    return [=](checker::Run& run) {
+      run.energy[30].*column += by;
+      run.energy[30].balance_error += column == &EnergyRow::damping_loss ? by : -by;
+    };
+  };
+  expectFault(spoil(brakedSlider(), shift(&EnergyRow::damping_loss, 2e-10)), { "energy.damping_loss" }, {});
+  expectFault(spoil(brakedSlider(), shift(&EnergyRow::thrust_work, 2e-10)), { "energy.thrust_work" }, {});
 }
 
 TEST(CheckerFaults, RestThatIsNeverQuiet)

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "exact_cases.h"
+#include "motion.h"
 
 // Correct runs pass, and the checks that they are there for were really asked.
 
@@ -54,6 +55,22 @@ TEST(Checker, PassesASmallPullWhereABounceIsCaptured)
   expectPass(pullAndPush(item, item.rest_from, 0.012), { "contact.sign", "replay.linear_momentum" });
 }
 
+TEST(Checker, PassesAStartThatIsSqueezed)
+{
+  expectPass(squeezedAtTheStart(), { "start.state" });
+}
+
+// Turned a little beyond the tolerance it overlaps what squeezed it.
+TEST(Checker, PassesAHitAfterASqueeze)
+{
+  const checker::Report report = judge(squeezedAndHit(), build(squeezedAndHit()));
+  for (const char* name : { "impact.restitution", "impact.impulse", "impact.approach" })
+  {
+    EXPECT_EQ(report.find(name)->count(), 1) << name;
+    EXPECT_EQ(report.find(name)->violations(), 0) << failures(report);
+  }
+}
+
 TEST(Checker, PassesDampedFlight)
 {
   expectPass(dampedFlight(), { "flight.position", "energy.damping_loss", "momentum.linear" });
@@ -77,6 +94,55 @@ TEST(Checker, PassesBlocksTiedByASpring)
 TEST(Checker, PassesARestingLoadThatShifts)
 {
   expectPass(rockingLoad(), { "rest.position", "rest.velocity" });
+}
+
+TEST(Checker, PassesPowersThatChangeMuchBetweenSamples)
+{
+  expectPass(brakedSlider(), { "energy.damping_loss", "energy.thrust_work", "rest.velocity" });
+}
+
+TEST(Checker, PassesForcesWhoseDifferencesCancel)
+{
+  expectPass(cancellingDifferences(), { "rest.velocity", "rest.position" });
+}
+
+TEST(Checker, PassesAForceThatEndsWithAnEventBetweenSamples)
+{
+  expectPass(brakedIntoWall(), { "rest.bounded" });
+}
+
+// Against central differences of the powers along the motion: errors of 1e-6^2 of the third derivatives, and the rounding over 1e-6.
+TEST(Checker, RatesOfPowers)
+{
+  const checker::Scene scene = checker::parseScene(
+      "{damping: 0.3, thrusters: {strength: 2}, blocks: [{name: p, size: [1, 2], pose: [0, 0, 0]}, {name: q, size: [2, 1], mass: 3, "
+      "pose: [3, 1, 0]}], springs: [{from: {block: p, point: [0.4, 0.3]}, to: {block: q, point: [-0.2, 0.5]}, stiffness: 2, "
+      "rest_length: 1, damping: 0.7}, {from: {block: q, point: [0.1, 0.2]}, to: {point: [5, 4]}, stiffness: 3, rest_length: 0, "
+      "damping: 0.4}], inputs: [{time: 0, thrust: {block: p, levels: [0.1, 0.2, 0.9, 0.4, 0, 0.7], duration: 9}}, {time: 0, wrench: "
+      "{block: q, force: [0.6, -1.1], torque: 0.8}}, {time: 0, spring: {block: p, point: [0.1, -0.3], anchor: [1, -2], stiffness: 4, "
+      "damping: 0.9}}]}");
+  const checker::Timeline timeline(scene);
+  const checker::Motion motion(scene);
+  const checker::Drive& drive = timeline.at(0.0);
+  const std::vector<State> states = { stateOf(0.1, -0.2, 0.4, 1.1, 0.7, -1.3), stateOf(3.2, 0.9, -0.6, -0.8, 1.4, 0.9) };
+  const std::vector<checker::Load> total = { { Vec2(1.7, -0.9), 0.8 }, { Vec2(-2.3, 1.2), -1.9 } };
+  const auto power = [&](double t) {
+    std::vector<State> moved = states;
+    for (int body = 0; body < 2; ++body)
+    {
+      const Vec2 a = total[body].force / drive.bodies[body].mass;
+      const double alpha = total[body].torque / motion.inertia(drive, body);
+      moved[body].position += t * (states[body].velocity + 0.5 * t * a);
+      moved[body].angle += t * (states[body].omega + 0.5 * t * alpha);
+      moved[body].velocity += t * a;
+      moved[body].omega += t * alpha;
+    }
+    std::vector<checker::Load> loads(2);
+    return motion.loads(0, drive, moved, loads);
+  };
+  const checker::Power rates = motion.powerRates(0, drive, states, total), from = power(-1e-6), to = power(1e-6);
+  EXPECT_NEAR(rates.thrust, (to.thrust - from.thrust) / 2e-6, 1e-8);
+  EXPECT_NEAR(rates.damping, (to.damping - from.damping) / 2e-6, 1e-8);
 }
 
 TEST(Checker, PassesALongerSampleInterval)

@@ -88,11 +88,11 @@ void checkStep(const EnergyRow& before, const EnergyRow& row, const Account& acc
   if (!account.known)
     return;
   const double limit = 10.0 * rounding;
-  checks.thrust.add(std::abs(row.thrust_work - before.thrust_work - account.thrust), limit, row.time);
+  checks.thrust.add(std::abs(row.thrust_work - before.thrust_work - account.thrust), limit + account.thrust_error, row.time);
   checks.command.add(std::max(std::abs(row.spring_work - before.spring_work - account.spring),
                               std::abs(row.command_work - before.command_work - account.command)),
                      limit, row.time);
-  checks.damping.add(std::abs(row.damping_loss - before.damping_loss - account.damping), limit, row.time);
+  checks.damping.add(std::abs(row.damping_loss - before.damping_loss - account.damping), limit + account.damping_error, row.time);
   checks.impact.add(std::abs(row.impact_loss - before.impact_loss - account.impact), limit, row.time);
 }
 }  // namespace

@@ -292,4 +292,126 @@ inline Case rockingLoad()
   return item;
 }
 
+/// Slides to and fro on the floor on a stiff spring, braked and pushed by a wrench: powers change much from sample to sample.
+inline Case brakedSlider()
+{
+  Case item;
+  item.scene = "{gravity: 0.01, damping: 2.0e4, walls: {bottom: 0}, blocks: [{name: a, size: [1, 1], mass: 1000, pose: [7.0e-4, 0.5, 0]}],"
+               " springs: [{from: {block: a, point: [0, 0]}, to: {point: [0, 0.5]}, stiffness: 1.0e7, rest_length: 0, damping: 2.0e4}],"
+               " inputs: [{time: 0, wrench: {block: a, force: [2000, 0]}}]}";
+  item.duration = 0.1;
+  const double braking = 20.0, omega = std::sqrt(1e4 - braking * braking), centre = 2e-4, start = 5e-4;
+  const auto motion = [=](double t) {
+    const double left = start * std::exp(-braking * t);
+    return stateOf(centre + left * (std::cos(omega * t) + braking / omega * std::sin(omega * t)), 0.5, 0,
+                   -left * 1e4 / omega * std::sin(omega * t), 0, 0);
+  };
+  const auto stored = [=](double t) { return 5e6 * std::pow(motion(t).position.x(), 2); };
+  item.movers = { { 1000, 1000 / 6.0, motion } };
+  item.gravity = [](double) { return 0.01; };
+  item.spring = stored;
+  item.thrust_work = [=](double t) { return 2000 * (motion(t).position.x() - motion(0).position.x()); };
+  item.damping_loss = [=, work = item.thrust_work](double t) {
+    return stored(0) + work(t) - stored(t) - 500 * motion(t).velocity.squaredNorm();
+  };
+  item.rest_from = 0.0;
+  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 5), row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 5) };
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = motion(t).position.x() - 0.5;
+    rests[1].point.x() = motion(t).position.x() + 0.5;
+  };
+  return item;
+}
+
+/// Slides to and fro on the floor on a stiff spring. Where it starts, the parts of orders 4 and 5 of its acceleration's integral over the first
+/// sample interval, 19/720 of the fourth difference and 3/160 of the fifth one (Adams and Moulton), cancel.
+inline Case cancellingDifferences()
+{
+  Case item;
+  const double omega = 100.0, turn = omega * 0.001, s = 2 * std::sin(turn / 2), c4 = 19.0 / 720, c5 = 3.0 / 160 * s;
+  const double start = std::atan(-(c4 + c5 * std::sin(turn / 2)) / (c5 * std::cos(turn / 2))) - 2 * turn;
+  const auto motion = [=](double t) {
+    return stateOf(5e-4 * std::cos(omega * t + start), 0.5, 0, -0.05 * std::sin(omega * t + start), 0, 0);
+  };
+  std::ostringstream scene;
+  scene.precision(17);
+  scene << "{gravity: 1, walls: {bottom: 0}, blocks: [{name: a, size: [1, 1], pose: [" << motion(0).position.x() << ", 0.5, 0], velocity: ["
+        << motion(0).velocity.x() << ", 0, 0]}], springs: [{from: {block: a, point: [0, 0]}, to: {point: [0, 0.5]}, stiffness: 1.0e4, "
+        << "rest_length: 0}]}";
+  item.scene = scene.str();
+  item.movers = { { 1, 1.0 / 6.0, motion } };
+  item.duration = 0.1;
+  item.gravity = [](double) { return 1.0; };
+  item.spring = [=](double t) { return 5e3 * std::pow(motion(t).position.x(), 2); };
+  item.rest_from = 0.0;
+  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0.5), row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0.5) };
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = motion(t).position.x() - 0.5;
+    rests[1].point.x() = motion(t).position.x() + 0.5;
+  };
+  return item;
+}
+
+/// Slides weightless on the floor, braked, and hits a wall flat between two samples: all that acts ends with the event. Then it leaves the
+/// floor at a speed of `lift`, which nothing explains.
+inline Case brakedIntoWall(double lift = 0.0)
+{
+  Case item;
+  item.scene = "{elasticity: 0, damping: 0.04, walls: {bottom: 0, right: 1}, blocks: [{name: a, size: [1, 1], pose: [0, 0.5, 0], "
+               "velocity: [3, 0, 0]}]}";
+  item.duration = 0.5;
+  const double hit = -std::log(1 - 0.04 * 0.5 / 3) / 0.04, speed = 3 - 0.04 * 0.5;
+  const auto motion = [=](double t) {
+    return t < hit ? stateOf(75 * (1 - std::exp(-0.04 * t)), 0.5, 0, 3 * std::exp(-0.04 * t), 0, 0) :
+                     stateOf(0.5, 0.5 + lift * (t - hit), 0, 0, lift, 0);
+  };
+  item.movers = { { 1, 1.0 / 6.0, motion } };
+  for (const double y : { 0.0, 1.0 })
+    item.events.push_back(row(hit, Kind::Impact, 0, 1, Vec2(1, y), Vec2(-1, 0), -speed, 0.5 * speed));
+  item.damping_loss = [=](double t) { return 4.5 - 0.5 * std::pow(3 - 0.04 * motion(t).position.x(), 2); };
+  item.impact_loss = Steps{ { { hit, 0.5 * speed * speed } } };
+  item.rest_from = 0.0;
+  item.rests = { row(0, Kind::Rest, 0, 2, Vec2(0, 0), Vec2(0, 1), 0, 0), row(0, Kind::Rest, 0, 2, Vec2(0, 0), Vec2(0, 1), 0, 0) };
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = motion(t).position.x() - 0.5;
+    rests[1].point.x() = motion(t).position.x() + 0.5;
+  };
+  return item;
+}
+
+/// Falls flat on the floor at the start while two walls squeeze it: their impulses undo each other but for the rounding.
+inline Case squeezedAtTheStart()
+{
+  Case item;
+  item.scene = "{elasticity: 0, walls: {left: -0.5, right: 0.5, bottom: 0}, blocks: [{name: a, size: [1, 1], pose: [0, 0.5, 0], "
+               "velocity: [0, -1, 0]}]}";
+  for (const double side : { -0.5, 0.5 })
+  {
+    const int wall = side < 0 ? 1 : 2;
+    for (const double y : { 0.0, 1.0 })
+      item.events.push_back(row(0, Kind::Impact, 0, wall, Vec2(side, y), Vec2(side < 0 ? 1 : -1, 0), 0, 1e5 / (4 * y + 3)));
+    item.events.push_back(row(0, Kind::Impact, 0, 3, Vec2(side, 0), Vec2(0, 1), -1, 0.5));
+  }
+  item.movers = { { 1, 1.0 / 6.0, [](double) { return stateOf(0, 0.5, 0, 0, 0, 0); } } };
+  return item;
+}
+
+/// Hit beside its centre just after floor and ceiling squeezed it: what rounding is left of their moments turns it.
+inline Case squeezedAndHit()
+{
+  Case item;
+  item.scene = "{elasticity: 0.5, walls: {bottom: 0, top: 1}, blocks: [{name: a, size: [1, 1], pose: [0, 0.5, 0]}, {name: b, vertices: "
+               "[[0, -0.1], [0.5, 0], [0, 0.1], [-0.5, 0]], pose: [-1.0005, 0.8, 0], velocity: [1, 0, 0]}]}";
+  const double hit = 0.0005, j = 1.5 / (2 + 0.3 * 0.3 * 6);
+  for (const int wall : { 2, 3 })
+    for (const double x : { 0.5, -0.5 })
+      item.events.push_back(row(0.0003, Kind::Impact, 0, wall, Vec2(x, wall - 2), Vec2(0, 5 - 2 * wall), 0, 1e7 / (46 * x + 30)));
+  item.events.push_back(row(hit, Kind::Impact, 0, 1, Vec2(-0.5, 0.8), Vec2(1, 0), -1, j));
+  item.movers = { { 1, 1.0 / 6.0, Pieces{ 0, { { 0, stateOf(0, 0.5, 0, 0, 0, 0) }, { hit, stateOf(0, 0.5, 0, j, 0, -1.8 * j) } } } },
+                  { 1, 1.0 / 12.0, Pieces{ 0, { { 0, stateOf(-1.0005, 0.8, 0, 1, 0, 0) }, { hit, stateOf(-1, 0.8, 0, 1 - j, 0, 0) } } } } };
+  item.impact_loss = Steps{ { { hit, 0.25 * j } } };
+  item.duration = 0.001;
+  return item;
+}
+
 }  // namespace exact

@@ -103,7 +103,7 @@ double Replay::slack(const ContactRow& row, double since)
       continue;
     const double rate =
         1.0 + fastestRate(islandOf(motion_.clusterOf(body))) + sliding / scene_.blocks[body].shape.radius;
-    value += since * since * since * rate * (rate * rate + 10.0 * leaning_[body] / drive_->bodies[body].mass);
+    value += since * since * since * rate * (rate * rate + 10.0 * leaning_[body].x() / drive_->bodies[body].mass);
   }
   return value;
 }
@@ -148,7 +148,7 @@ void Replay::strike(RowRange rows)
     for (const int body : { row.a, row.b })
     {
       if (scene_.movable(body))
-        bring(motion_.clusterOf(body), row.time);
+        bringIsland(motion_.clusterOf(body), row.time);
     }
   }
   if (events.empty())
@@ -253,8 +253,6 @@ void Replay::push(const ContactRow& row)
     states_[body].velocity += impulse / drive_->bodies[body].mass;
     states_[body].omega += cross(arm, impulse) / motion_.inertia(*drive_, body);
     pushed_[body] += std::abs(row.impulse) * Vec2(1.0, arm.norm());
-    kick_[body].force += impulse;
-    kick_[body].torque += cross(arm, impulse);
   }
 }
 
@@ -271,18 +269,21 @@ void Replay::loseIsland(int body)
 void Replay::checkSingle(const ContactRow& row, const std::vector<State>& before)
 {
   const double elastic = elasticity(scene_, *drive_, row.a, row.b);
-  double speed = 0.0, yielding = 0.0;
+  double speed = 0.0, kicks = 0.0, yielding = 0.0;
   for (const int body : { row.a, row.b })
   {
     if (!scene_.movable(body))
       continue;
     const State& state = before[body];
     speed += state.velocity.norm() + scene_.blocks[body].shape.radius * std::abs(state.omega);
+    kicks += pushed_[body].x() / drive_->bodies[body].mass +
+             scene_.blocks[body].shape.radius * pushed_[body].y() / motion_.inertia(*drive_, body);
     const double arm = cross(row.point - state.position, row.normal);
     yielding += 1.0 / drive_->bodies[body].mass + arm * arm / motion_.inertia(*drive_, body);
   }
   const double in = normalVelocity(row, before), out = normalVelocity(row, states_);
-  const double limit = 10.0 * relative_error * std::max(1.0, speed);
+  // The speeds follow from those at the sample before, and carry the rounding of all impulses since.
+  const double limit = relative_error * (10.0 * std::max(1.0, speed) + kicks);
   checks_.approach.add(std::abs(row.normal_velocity - in), limit, row.time, row.a, row.b);
   // A bounce too low for the tolerance to tell from rest may be taken for rest, be it the one that comes or the one that would follow.
   const double least = elastic * std::abs(in) <= captureSpeed(row, before) ? 0.0 : elastic;

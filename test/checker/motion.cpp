@@ -44,6 +44,17 @@ Vec2 springForce(const Spring& spring, const SpringEnd& from, const SpringEnd& t
   return -(spring.stiffness * (length - spring.rest_length) + spring.damping * stretching) * along;
 }
 
+/// How fast the power of a damper changes; `acceleration` is that of its `from` end less that of its `to` end.
+double damperRate(const Spring& spring, const SpringEnd& from, const SpringEnd& to, const Vec2& acceleration)
+{
+  const Vec2 line = from.point - to.point, rate = from.velocity - to.velocity;
+  if (spring.rest_length <= 0.0)
+    return 2.0 * spring.damping * rate.dot(acceleration);
+  const double length = line.norm(), stretching = line.dot(rate) / length;
+  const double change = (line.dot(acceleration) + rate.squaredNorm() - stretching * stretching) / length;
+  return 2.0 * spring.damping * stretching * change;
+}
+
 double springEnergy(const Spring& spring, const std::vector<State>& states)
 {
   const Vec2 line =
@@ -160,6 +171,53 @@ Power Motion::loads(int cluster, const Drive& drive, const std::vector<State>& s
       addSpring(asSpring(*drive.bodies[body].spring, body), states, out, power);
   }
   return power;
+}
+
+// Of thrusters and the wrench; their forces turn with the body.
+double Motion::driveRate(const Drive& drive, int body, const State& state, const Acceleration& acceleration) const
+{
+  const Drive::Body& own = drive.bodies[body];
+  const Block& block = scene_.blocks[body];
+  const auto rate = [&](const Vec2& force, const Vec2& point) {
+    const Vec2 turning = state.omega * Vec2(-force.y(), force.x());
+    return turning.dot(state.velocityAt(point)) + force.dot(acceleration.at(point, state));
+  };
+  double sum = rate(turned(own.force, state.angle), state.position) + own.torque * acceleration.angular;
+  for (size_t i = 0; i < own.levels.size() && i < block.thrusters.size(); ++i)
+  {
+    const Thruster& thruster = block.thrusters[i];
+    const double strength = own.levels[i] * thruster.strength * (block.default_thrusters ? drive.thrust : 1.0);
+    sum += rate(strength * turned(thruster.direction, state.angle), state.position + turned(thruster.point, state.angle));
+  }
+  return sum;
+}
+
+Power Motion::powerRates(int cluster, const Drive& drive, const std::vector<State>& states, const std::vector<Load>& total) const
+{
+  const auto accelerationOf = [&](int body) {
+    return Acceleration{ total[body].force / drive.bodies[body].mass, total[body].torque / inertia(drive, body) };
+  };
+  const double turning = drive.damping * scene_.rotational_ratio;
+  Power rates;
+  const auto addDamper = [&](const Spring& spring) {
+    const SpringEnd from = endOf(spring.from, spring.from_point, states), to = endOf(spring.to, spring.to_point, states);
+    const auto at = [&](int body, const SpringEnd& end) {
+      return body >= 0 && scene_.movable(body) ? accelerationOf(body).at(end.point, states[body]) : Vec2(Vec2::Zero());
+    };
+    rates.damping += damperRate(spring, from, to, at(spring.from, from) - at(spring.to, to));
+  };
+  for (const int body : clusters_[cluster])
+  {
+    const State& state = states[body];
+    const Acceleration acceleration = accelerationOf(body);
+    rates.damping += 2.0 * (drive.damping * state.velocity.dot(acceleration.linear) + turning * state.omega * acceleration.angular);
+    rates.thrust += driveRate(drive, body, state, acceleration);
+    if (drive.bodies[body].spring)
+      addDamper(asSpring(*drive.bodies[body].spring, body));
+  }
+  for (const Spring* spring : springs_of_[cluster])
+    addDamper(*spring);
+  return rates;
 }
 
 bool Motion::onParabola(int cluster, const Drive& drive) const

@@ -21,6 +21,20 @@ struct Power
   double damping = 0.0;  ///< taken by damping and the dampers of springs
 };
 
+/// Of a body: its centre of mass and its turning.
+struct Acceleration
+{
+  Vec2 linear = Vec2::Zero();
+  double angular = 0.0;
+
+  /// Acceleration of the point of the body that is now at a world point.
+  Vec2 at(const Vec2& point, const State& state) const
+  {
+    const Vec2 arm = point - state.position;
+    return linear + angular * Vec2(-arm.y(), arm.x()) - state.omega * state.omega * arm;
+  }
+};
+
 /// Blocks that move together because scene springs tie them.
 using Cluster = std::vector<int>;
 
@@ -44,6 +58,9 @@ public:
   /// Applied loads of the bodies of a cluster, and their power. `states` holds all blocks.
   Power loads(int cluster, const Drive& drive, const std::vector<State>& states, std::vector<Load>& out) const;
 
+  /// How fast that power changes where contact forces act as well: `total` holds all that acts on every block.
+  Power powerRates(int cluster, const Drive& drive, const std::vector<State>& states, const std::vector<Load>& total) const;
+
   /// Moves a cluster on (or back) by a span without events. `held` (one per block) is added to the applied loads.
   Power advance(int cluster, const Drive& drive, const std::vector<Load>& held, double span,
                 std::vector<State>& states) const;
@@ -63,6 +80,7 @@ private:
   bool onParabola(int cluster, const Drive& drive) const;
   void addSpring(const Spring& spring, const std::vector<State>& states, std::vector<Load>& out, Power& power) const;
   void addDrive(const Drive& drive, int body, const State& state, Load& load, Power& power) const;
+  double driveRate(const Drive& drive, int body, const State& state, const Acceleration& acceleration) const;
 
   const Scene& scene_;
   std::vector<Cluster> clusters_;

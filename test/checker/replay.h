@@ -22,6 +22,7 @@ struct Account
 {
   bool known = true;
   double thrust = 0.0, spring = 0.0, command = 0.0, damping = 0.0, impact = 0.0;
+  double thrust_error = 0.0, damping_error = 0.0;  ///< how far integrals of powers at the samples may be off
 };
 
 /// Starts every sample interval at its first sample, moves the bodies freely, applies the listed impulses at the listed
@@ -72,11 +73,15 @@ private:
   void account(const Change& change);
   void land(size_t sample);
   void compare(int body, const State& wanted, const State& found);
-  double islandForce(int body, size_t sample);
-  void bound(int body, size_t sample);
   void bring(int cluster, double time);
   int islandOf(int cluster);
   bool known(int body);
+
+  // unknown_forces.cpp: where contact forces change between the samples
+  void bringIsland(int cluster, double time);
+  double demand(int island);
+  double forcedAcceleration(const ContactRow& row) const;
+  void bound(int body, size_t sample);
 
   // impacts.cpp: what happens at one time
   void strike(RowRange rows);
@@ -113,15 +118,16 @@ private:
   Account* account_ = nullptr;
   double begin_ = 0.0, end_ = 0.0;
   std::vector<State> states_;
-  std::vector<Load> held_;                       ///< contact forces at the interval's first sample
+  std::vector<Load> held_, none_;                ///< contact forces at the interval's first sample; no forces
+  std::vector<const ContactRow*> rests_;         ///< where bodies rest at either sample, or begin or end to
   std::vector<std::pair<int, int>> rest_pairs_;  ///< that rest at either sample or begin to in between; sorted
   std::vector<int> island_parent_;               ///< clusters joined by resting contacts
-  std::vector<char> resting_, lost_;             ///< per cluster; lost: its state is unknown after an event
+  std::vector<char> resting_, lost_;             ///< per cluster; lost: the forces on it are unknown after an event
   std::vector<char> eventful_;                   ///< per island root
+  std::vector<double> demand_;                   ///< per island root: what contact forces may change, sqrt(kg) m/s
   std::vector<double> clock_;                    ///< per cluster
   std::vector<Vec2> pushed_;                     ///< per body: sums of |impulse| and of |impulse| x arm
-  std::vector<Load> kick_;                       ///< per body: impulse and its moment
-  std::vector<double> leaning_;                  ///< per body: sum of the contact forces at both samples
+  std::vector<Vec2> leaning_;                    ///< per body: sums of the contact forces at both samples and of their moments
   std::vector<char> moved_;  ///< per body: a rest began or ended near it, which may shift it by the tolerance
 };
 

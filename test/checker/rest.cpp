@@ -9,46 +9,53 @@ namespace checker
 {
 namespace
 {
-/// Weights that integrate the polynomial through n values at 0, 1 ... n - 1 over [start, start + 1], once and twice.
+/// Weights that integrate the polynomial through n values at 0, 1 ... n - 1 over [start, start + 1], once and twice, and the one
+/// through n values and as many slopes (Hermite).
 struct Weights
 {
-  std::array<double, 6> once{}, twice{};
+  std::array<double, 6> once{}, twice{}, of_value{}, of_slope{};
 };
 
-// Five Gauss points are exact for the degrees met here.
+// Six Gauss points are exact up to degree 11, the highest here.
 Weights weightsOf(size_t n, size_t start)
 {
-  static const double node[] = { 0.0, 0.5384693101056831, 0.9061798459386640 };
-  static const double share[] = { 0.5688888888888889, 0.4786286704993665, 0.2369268850561891 };
+  static const double node[] = { 0.2386191860831969, 0.6612093864662645, 0.9324695142031521 };
+  static const double share[] = { 0.4679139345726910, 0.3607615730481386, 0.1713244923791704 };
   Weights weights;
-  for (int g = -2; g <= 2; ++g)
+  for (int g = 0; g < 6; ++g)
   {
-    const double s = 0.5 + (g < 0 ? -0.5 : 0.5) * node[std::abs(g)];
+    const double s = 0.5 + (g < 3 ? -0.5 : 0.5) * node[g % 3], weight = 0.5 * share[g % 3];
     for (size_t i = 0; i < n; ++i)
     {
-      double basis = 0.5 * share[std::abs(g)];
+      double basis = 1.0, basis_slope = 0.0;  // Lagrange's, and its slope at node i
       for (size_t j = 0; j < n; ++j)
       {
-        if (j != i)
-          basis *= (start + s - j) / (static_cast<double>(i) - static_cast<double>(j));
+        if (j == i)
+          continue;
+        const double apart = static_cast<double>(i) - static_cast<double>(j);
+        basis *= (start + s - j) / apart;
+        basis_slope += 1.0 / apart;
       }
-      weights.once[i] += basis;
-      weights.twice[i] += (1.0 - s) * basis;
+      const double aside = start + s - i;
+      weights.once[i] += weight * basis;
+      weights.twice[i] += weight * (1.0 - s) * basis;
+      weights.of_value[i] += weight * basis * basis * (1.0 - 2.0 * basis_slope * aside);
+      weights.of_slope[i] += weight * basis * basis * aside;
     }
   }
   return weights;
 }
 
-/// A window of n of `count` values that lies around [interval, interval + 1], or beside it by one where there are values.
+/// A window of n of `count` values that lies around [interval, interval + 1] where there are values.
 struct Window
 {
-  Window(size_t n, size_t interval, size_t count, int aside = 0) : n(n)
+  Window(size_t n, size_t interval, size_t count) : n(n)
   {
-    const size_t before = n / 2 - 1 - aside;
+    const size_t before = n / 2 - 1;
     start = interval < before ? 0 : std::min(interval - before, count - n);
     static const std::array<std::array<Weights, 5>, 7> table = [] {
       std::array<std::array<Weights, 5>, 7> all;
-      for (const size_t size : { 4, 6 })
+      for (const size_t size : { 4, 5, 6 })
       {
         for (size_t at = 0; at + 1 < size; ++at)
           all[size][at] = weightsOf(size, at);
@@ -65,6 +72,15 @@ struct Window
       sum += weights->once[i] * value(start + i);
     return sum;
   }
+  /// With the slopes as well; the error falls with twice the power of the sample interval.
+  template <class Value, class Slope>
+  double hermite(double h, const Value& value, const Slope& slope) const
+  {
+    double sum = 0.0;
+    for (size_t i = 0; i < n; ++i)
+      sum += weights->of_value[i] * value(start + i) + weights->of_slope[i] * h * slope(start + i);
+    return h * sum;
+  }
   template <class Value>
   auto twice(const Value& value) const
   {
@@ -77,6 +93,16 @@ struct Window
   size_t n, start;
   const Weights* weights;
 };
+
+double magnitude(double value)
+{
+  return std::abs(value);
+}
+
+double magnitude(const Vec2& value)
+{
+  return value.norm();
+}
 
 constexpr double force_error = 1e-9;    ///< relative; forces come from a linear solve that may be ill-conditioned
 constexpr double largest_guess = 1e-6;  ///< m/s or rad/s: an interval with a larger uncertainty is not judged
@@ -153,7 +179,8 @@ void RestMotion::checkStretch(int cluster, size_t first, size_t last)
 void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Instant>& instants, size_t first)
 {
   const double h = run_.times[sample] - run_.times[sample - 1];
-  const Window fine(6, sample - 1 - first, instants.size());
+  const size_t interval = sample - 1 - first;
+  const Window fine(6, interval, instants.size()), medium(5, interval, instants.size()), coarse(4, interval, instants.size());
   Account& account = replay_.account(sample);
   bool sure = true;
   for (size_t i = 0; i < motion_.clusters()[cluster].size(); ++i)
@@ -166,14 +193,12 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
     const Vec2 gain = h * fine.once(a);
     const double turn = h * fine.once(alpha);
     // The difference of two orders is an estimate of the finer one's error, not a bound: forces that grow by a fifth from sample to sample
-    // exceed it a few times over. It may vanish by chance, but not for three windows.
-    double guess = 0.0, turn_guess = 0.0;
-    for (const int aside : { -1, 0, 1 })
-    {
-      const Window coarse(4, sample - 1 - first, instants.size(), aside);
-      guess = std::max(guess, 30.0 * (gain - h * coarse.once(a)).norm());
-      turn_guess = std::max(turn_guess, 30.0 * std::abs(turn - h * coarse.once(alpha)));
-    }
+    // exceed it a few times over. One order's step may vanish by chance, or be undone by the next one's: their sizes count.
+    const auto doubt = [&](const auto& value) {
+      const auto low = coarse.once(value), middle = medium.once(value), high = fine.once(value);
+      return 30.0 * h * (magnitude(high - middle) + magnitude(middle - low));
+    };
+    const double guess = doubt(a), turn_guess = doubt(alpha);
     sure = sure && guess < largest_guess && turn_guess < largest_guess;
     if (!sure)
       break;
@@ -192,10 +217,24 @@ void RestMotion::checkInterval(int cluster, size_t sample, const std::vector<Ins
                            std::abs(to.angle - from.angle - swing) / limits.angle),
                   1.0, run_.times[sample], body);
   }
-  account.thrust += h * fine.once([&](size_t k) { return instants[k].power.thrust; });
-  account.damping += h * fine.once([&](size_t k) { return instants[k].power.damping; });
+  addWork(h, interval, instants, account);
   account.known = account.known && sure;
   (sure ? judged_ : skipped_) += 1.0;
+}
+
+// Powers may change faster than accelerations do, as that of a damper whose ends pass close to each other; but their slopes at the samples
+// are known as well. Order 12 is far more exact than order 8, so that the difference bounds its error.
+void RestMotion::addWork(double h, size_t interval, const std::vector<Instant>& instants, Account& account) const
+{
+  const auto integrate = [&](double Power::*part, double& work, double& error) {
+    const auto value = [&](size_t k) { return instants[k].power.*part; };
+    const auto slope = [&](size_t k) { return instants[k].rates.*part; };
+    const double fine = Window(6, interval, instants.size()).hermite(h, value, slope);
+    work += fine;
+    error += std::abs(fine - Window(4, interval, instants.size()).hermite(h, value, slope));
+  };
+  integrate(&Power::thrust, account.thrust, account.thrust_error);
+  integrate(&Power::damping, account.damping, account.damping_error);
 }
 
 void RestMotion::addContacts(int cluster, size_t sample, std::vector<Load>& loads) const
@@ -225,6 +264,7 @@ RestMotion::Instant RestMotion::instant(int cluster, size_t sample) const
   Instant result;
   result.power = motion_.loads(cluster, drive, states, loads);
   addContacts(cluster, sample, loads);
+  result.rates = motion_.powerRates(cluster, drive, states, loads);
   for (const int body : motion_.clusters()[cluster])
   {
     result.a.push_back(loads[body].force / drive.bodies[body].mass);

@@ -18,17 +18,18 @@ public:
   void checkAll();
 
 private:
-  /// Accelerations of a cluster's bodies at one sample, and the power of its loads.
+  /// Accelerations of a cluster's bodies at one sample, the power of its loads and how fast it changes.
   struct Instant
   {
     std::vector<Vec2> a;
     std::vector<double> alpha;
-    Power power;
+    Power power, rates;
   };
 
   void checkCluster(int cluster);
   void checkStretch(int cluster, size_t first, size_t last);
   void checkInterval(int cluster, size_t sample, const std::vector<Instant>& instants, size_t first);
+  void addWork(double h, size_t interval, const std::vector<Instant>& instants, Account& account) const;
   Instant instant(int cluster, size_t sample) const;
   void addContacts(int cluster, size_t sample, std::vector<Load>& loads) const;
   bool evenlySpaced(size_t sample) const;
