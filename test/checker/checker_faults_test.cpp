@@ -230,7 +230,7 @@ TEST(CheckerFaults, PullBeyondWhatACaptureStandsFor)
       if (row.kind != Kind::Rest && row.time == capture)
         row.impulse = std::exchange(impulse, 0.0);
   };
-  expectFault(spoil(item, pull), { "contact.sign" }, { "replay.linear_momentum", "replay.angular_momentum" });
+  expectFault(spoil(item, pull), { "contact.sign" }, { "replay.linear_momentum", "replay.angular_momentum", "rest.bounded" });
 }
 
 TEST(CheckerFaults, NormalTiltedAndTooLong)
