@@ -127,12 +127,8 @@ void ContactGroup::projectOut(const std::vector<int>& rows)
   qr.setThreshold(std::sqrt(kTrusted));
   const int rank = static_cast<int>(qr.rank());
   Eigen::VectorXd along = qr.householderQ().transpose() * velocity;
-  // Impulses that almost cancel say nothing: the columns that the others nearly give get none.
-  int told = rank;
-  while (told > 0 && std::abs(qr.matrixR()(told - 1, told - 1)) < std::sqrt(kDependent) * qr.maxPivot())
-    --told;
-  const Eigen::VectorXd impulses = -qr.matrixR().topLeftCorner(told, told).triangularView<Eigen::Upper>().solve(along.head(told));
-  for (int k = 0; k < told; ++k)
+  const Eigen::VectorXd impulses = -qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(along.head(rank));
+  for (int k = 0; k < rank; ++k)
   {
     const int which = qr.colsPermutation().indices()[k];
     touches[rows[which]].capture += impulses[k] / norm[which];

@@ -1,3 +1,4 @@
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
@@ -7,68 +8,88 @@ namespace checker
 {
 namespace
 {
-/// What 1 N s at a touch does to its movable bodies.
-struct Push
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// min |y - C p| over p >= 0 by active sets (Lawson & Hanson 1974, ch. 23), as far as it takes to come below `enough`.
+double leastDistance(const MatrixXd& c, const VectorXd& y, double enough)
 {
-  std::vector<std::pair<int, Load>> loads;
-  double impulse = 0.0;
-};
+  std::vector<int> passive;
+  VectorXd p = VectorXd::Zero(c.cols()), left = y;
+  for (int step = 0; step < 3 * c.cols() && left.norm() > enough; ++step)
+  {
+    const VectorXd slope = c.transpose() * left;
+    int best = -1;
+    for (int i = 0; i < c.cols(); ++i)
+      if (slope[i] > 1e-13 * y.norm() && (best < 0 || slope[i] > slope[best]) &&
+          std::find(passive.begin(), passive.end(), i) == passive.end())
+        best = i;
+    if (best < 0)
+      break;
+    passive.push_back(best);
+    while (!passive.empty())
+    {
+      MatrixXd columns(c.rows(), passive.size());
+      for (size_t k = 0; k < passive.size(); ++k)
+        columns.col(k) = c.col(passive[k]);
+      const VectorXd wanted = columns.colPivHouseholderQr().solve(y);
+      double share = 1.0;
+      size_t leaves = passive.size();
+      for (size_t k = 0; k < passive.size(); ++k)
+      {
+        const double now = p[passive[k]];
+        if (wanted[k] <= 0.0 && now / (now - wanted[k]) <= share)
+        {
+          share = now > 0.0 ? now / (now - wanted[k]) : 0.0;
+          leaves = k;
+        }
+      }
+      for (size_t k = 0; k < passive.size(); ++k)
+        p[passive[k]] += share * (wanted[k] - p[passive[k]]);
+      if (leaves == passive.size())
+        break;
+      p[passive[leaves]] = 0.0;
+      passive.erase(passive.begin() + leaves);
+    }
+    left = y - c * p;
+  }
+  return left.norm();
+}
 }  // namespace
 
-// N s, what of the impulses j no pushes p >= 0 at the same touches would do: min |J'(j - p)| sqrt(m) in the metric M^-1, with m all movable mass. (On a
-// short lever large pulls and pushes do little together.) By coordinate descent from p = max(j, 0), which ends where the rest is small enough.
+// N s, what of the impulses j no pushes p >= 0 at the same touches would do: min |J'(j - p)| sqrt(m) in the metric M^-1, with m all movable mass. On a
+// short lever large pulls and pushes do little together.
 double Replay::pull(const std::vector<const ContactRow*>& events, double enough) const
 {
-  std::vector<Load> left(run_.bodies);
-  const auto act = [&](const Push& push, double impulse) {
-    for (const auto& [body, load] : push.loads)
+  std::vector<int> place(run_.bodies, -1);
+  double mass = 0.0;
+  int count = 0;
+  for (int body = 0; body < static_cast<int>(run_.bodies); ++body)
+    if (scene_.movable(body))
     {
-      left[body].force += impulse * load.force;
-      left[body].torque += impulse * load.torque;
+      mass += drive_->bodies[body].mass;
+      place[body] = count++;
     }
-  };
-  const auto product = [&](int body, const Load& p, const Load& q) {
-    return p.force.dot(q.force) / drive_->bodies[body].mass + p.torque * q.torque / motion_.inertia(*drive_, body);
-  };
-
-  std::vector<Push> pushes;
-  for (const ContactRow* event : events)
+  MatrixXd columns = MatrixXd::Zero(3 * count, events.size());
+  VectorXd pulls = VectorXd::Zero(3 * count), all = pulls;
+  for (size_t k = 0; k < events.size(); ++k)
   {
-    pushes.push_back({ {}, std::max(0.0, event->impulse) });
-    for (const int body : { event->a, event->b })
-      if (scene_.movable(body))
-      {
-        const Vec2 force = (body == event->a ? 1.0 : -1.0) * event->normal;
-        pushes.back().loads.push_back({ body, { force, cross(Vec2(event->point - states_[body].position), force) } });
-      }
-    act(pushes.back(), std::min(0.0, event->impulse));
-  }
-  constexpr int most_sweeps = 1000;
-  for (int sweep = 0;; ++sweep)
-  {
-    double mass = 0.0, square = 0.0;
-    for (int body = 0; body < static_cast<int>(run_.bodies); ++body)
-      if (scene_.movable(body))
-      {
-        mass += drive_->bodies[body].mass;
-        square += product(body, left[body], left[body]);
-      }
-    const double value = std::sqrt(mass * square);
-    if (value <= enough || sweep == most_sweeps)
-      return value;
-    for (Push& push : pushes)
+    const ContactRow& row = *events[k];
+    for (const int body : { row.a, row.b })
     {
-      double rate = 0.0, diagonal = 0.0;
-      for (const auto& [body, load] : push.loads)
-      {
-        rate += product(body, load, left[body]);
-        diagonal += product(body, load, load);
-      }
-      const double more = std::max(-push.impulse, rate / diagonal);
-      push.impulse += more;
-      act(push, -more);
+      if (!scene_.movable(body))
+        continue;
+      const Vec2 force = (body == row.a ? 1.0 : -1.0) * row.normal;
+      const double torque = cross(Vec2(row.point - states_[body].position), force);
+      columns.col(k).segment<2>(3 * place[body]) = force / std::sqrt(drive_->bodies[body].mass);
+      columns(3 * place[body] + 2, k) = torque / std::sqrt(motion_.inertia(*drive_, body));
     }
+    pulls += std::min(0.0, row.impulse) * columns.col(k);
+    all += row.impulse * columns.col(k);
+    columns.col(k).normalize();
   }
+  const double share = std::sqrt(mass), few = pulls.norm();
+  return share * (share * few <= enough ? few : leastDistance(columns, all, enough / share));
 }
 
 }  // namespace checker
