@@ -120,12 +120,15 @@ double World::Engine::leastForce(const Island& island) const
   return -1e-12 * largest;
 }
 
-/// Lets the touch go that pulls most at the start of new arcs, if any does, or if none presses. The plan had it press, by less than the rounding of
-/// forces that depend on each other nearly, so that its force is zero; as an event it would come again at once, and again.
+/// Lets the touch go that pulls most at the next instant after the start of new arcs, if any does, or if none presses. The plan had it press, by less
+/// than the rounding of forces that depend on each other nearly, so that its force is zero, or by what is gone before time can tell; as an event it would
+/// come again at once, and again.
 bool World::Engine::letGo(Island& island, const Time& time)
 {
-  const auto least = std::min_element(island.rests.begin(), island.rests.end(), [](const Rest& p, const Rest& q) { return p.force[0] < q.force[0]; });
-  if (least == island.rests.end() || least->force[0] > leastForce(island))
+  constexpr double kInstant = 2.220446049250313e-16;  // s, by which instants differ
+  const auto next = [](const Rest& rest) { return rest.force[0] + kInstant * rest.force[1]; };
+  const auto least = std::min_element(island.rests.begin(), island.rests.end(), [&](const Rest& p, const Rest& q) { return next(p) < next(q); });
+  if (least == island.rests.end() || next(*least) > leastForce(island))
     return false;
   for (Touch& t : group_.touches)
     if (t.active && sameTouch(t, least->touch))
