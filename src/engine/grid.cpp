@@ -10,6 +10,14 @@ namespace
 /// Share of a cell's size by which a centre may leave it.
 constexpr double kMargin = 1.0 / 16.0;
 
+/// Cells are counted as far as coordinates tell one from the next. Those at the end have no other end.
+constexpr std::int64_t kFarthest = std::int64_t{ 1 } << 53;
+
+std::int64_t indexOf(double cells)
+{
+  return static_cast<std::int64_t>(std::fmax(-0x1p53, std::fmin(0x1p53, std::floor(cells))));
+}
+
 std::int64_t halved(std::int64_t value, int times)
 {
   const std::int64_t divisor = std::int64_t{ 1 } << times;
@@ -97,7 +105,7 @@ bool Grid::place(int body, const Vec2& centre)
   if (home.level < 0)
     return false;
   const double size = levels_[home.level].size;
-  const Cell own{ static_cast<std::int64_t>(std::floor(centre.x() / size)), static_cast<std::int64_t>(std::floor(centre.y() / size)) };
+  const Cell own{ indexOf(centre.x() / size), indexOf(centre.y() / size) };
   if (home.listed && own == entries_[home.first].cell)
     return false;
   for (int level = home.level; level < static_cast<int>(levels_.size()); ++level)
@@ -148,8 +156,9 @@ Grid::Box Grid::keeps(int body) const
     return { Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL) };
   const Cell& own = cell(body, homes_[body].level);
   const double size = levels_[homes_[body].level].size;
-  const Vec2 corner(static_cast<double>(own.x) * size, static_cast<double>(own.y) * size);
-  return { corner - Vec2::Constant(kMargin * size), corner + Vec2::Constant((1.0 + kMargin) * size) };
+  const auto low = [size](std::int64_t index) { return index == -kFarthest ? -HUGE_VAL : static_cast<double>(index) * size - kMargin * size; };
+  const auto high = [size](std::int64_t index) { return index == kFarthest ? HUGE_VAL : static_cast<double>(index) * size + (1.0 + kMargin) * size; };
+  return { Vec2(low(own.x), low(own.y)), Vec2(high(own.x), high(own.y)) };
 }
 
 }  // namespace block_world
