@@ -162,7 +162,7 @@ void Replay::strike(RowRange rows)
 
 // Where a slow bounce is replaced by its limit, touches that open slowly are held as well, and what is listed stands
 // for the applied forces during the hops left out: it may pull, by no more than the speed of capture of all that moves,
-// for each hop. (Their energies add up: so do the squares.)
+// for each touch. (Each may press with all weight, and the energies of their hops add up: so do the squares.)
 void Replay::checkSigns(const std::vector<const ContactRow*>& events)
 {
   const bool captures = std::any_of(events.begin(), events.end(), [&](const ContactRow* row) {
@@ -172,8 +172,7 @@ void Replay::checkSigns(const std::vector<const ContactRow*>& events)
       events.begin(), events.end(), [](const ContactRow* p, const ContactRow* q) { return p->impulse < q->impulse; });
   if (captures && least.impulse < 0.0)
   {
-    const auto hops = std::count_if(events.begin(), events.end(), [](const ContactRow* row) { return row->impulse < 0.0; });
-    const double most = std::max(relative_error, std::sqrt(static_cast<double>(hops)) * captureImpulse());
+    const double most = std::max(relative_error, std::sqrt(static_cast<double>(events.size())) * captureImpulse());
     checks_.sign.add(pull(events, most), most, least.time, least.a, least.b);
   }
   else
