@@ -317,7 +317,8 @@ void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& ro
   search(0.0);
 }
 
-void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Cholesky& held, double noise)
+void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Cholesky& held,
+                                double noise)
 {
   start(a, rows, b);
   factor_.copy(held);

@@ -95,15 +95,9 @@ private:
 class Complementarity
 {
 public:
-  /// rows: indices into A; b: one value per row. The result is read from value() and support().
-  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
-  {
-    start(a, rows, b);
-    search(0.0);
-  }
-
-  /// The same; guess: positions within rows that may carry load, from which the search starts.
-  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& guess);
+  /// rows: indices into A; b: one value per row; guess: positions within rows that may carry load, from which the search starts. The result is read from
+  /// value() and support().
+  void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& guess = {});
 
   /// The first rows, those of the factor `held`, are equations instead: (A l + b)_i = 0 with l_i of any sign. What is above -noise does not count as
   /// negative.

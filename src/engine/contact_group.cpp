@@ -32,7 +32,6 @@ void ContactGroup::push(int i, double impulse)
 /// A velocity whose parts cancel to rounding is zero: it would only breed turns and drifts too small to mean anything.
 void ContactGroup::clean()
 {
-  constexpr double kCancelled = 64 * 2.220446049250313e-16;
   for (std::size_t i = 0; i < members.size(); ++i)
   {
     Member& m = members[i];
@@ -69,7 +68,7 @@ void ContactGroup::scale(const ContactScales& scales)
   {
     if (m.inverse_mass == 0.0)
       continue;
-    const double gyration = std::sqrt(m.inverse_mass / m.inverse_inertia);
+    const double gyration = m.gyration();
     acceleration_scale_ = std::max(acceleration_scale_, m.acceleration.norm() + (std::abs(m.alpha) + m.omega * m.omega) * gyration);
     speed = std::max(speed, m.velocity.norm() + std::abs(m.omega) * gyration);
   }
@@ -282,16 +281,16 @@ bool ContactGroup::struck() const
   return std::any_of(touches.begin(), touches.end(), [](const Touch& t) { return t.impulse != 0.0 || t.capture != 0.0; });
 }
 
-bool ContactGroup::isDeep(const Touch& t, double resolution) const
+bool ContactGroup::settles(const Touch& t, double resolution) const
 {
-  return std::max(t.gap, t.separation) < -resolution;
+  return !t.corner && (t.active || std::max(t.gap, t.separation) < -resolution);
 }
 
 double ContactGroup::misfit(double resolution) const
 {
   double sum = 0.0;
   for (const Touch& t : touches)
-    if (!t.corner && (t.active || isDeep(t, resolution)))
+    if (settles(t, resolution))
       sum += t.gap * t.gap;
   return sum;
 }
@@ -302,7 +301,7 @@ ContactGroup::Moves ContactGroup::settlePositions(double resolution)
   constexpr double kShortLever = 1e-6;  // square of the share of the others' lengths
   pressed_.clear();
   for (std::size_t i = 0; i < touches.size(); ++i)
-    if (!touches[i].corner && (touches[i].active || isDeep(touches[i], resolution)))
+    if (settles(touches[i], resolution))
       pressed_.push_back(static_cast<int>(i));
   const auto open = [&](int i) { return touches[i].gap != 0.0; };
   if (std::none_of(pressed_.begin(), pressed_.end(), open))
@@ -326,7 +325,7 @@ ContactGroup::Moves ContactGroup::settlePositions(double resolution)
     const Vec2& shift = changes_[m].velocity;
     const double turn = changes_[m].omega;
     place(members[m], shift, turn);
-    moves.farthest = std::max(moves.farthest, shift.norm() + std::abs(turn) * std::sqrt(members[m].inverse_mass / members[m].inverse_inertia));
+    moves.farthest = std::max(moves.farthest, shift.norm() + std::abs(turn) * members[m].gyration());
   }
   return moves;
 }

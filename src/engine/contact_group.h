@@ -108,7 +108,7 @@ private:
   void projectOut(const std::vector<int>& rows);
   void bringToRestWithNeighbours(std::vector<int>& rows, const std::vector<int>& but = {});
 
-  bool isDeep(const Touch& touch, double resolution) const;
+  bool settles(const Touch& touch, double resolution) const;
   void place(Member& member, const Vec2& shift, double turn);
 
   Room rows_room_, members_room_;

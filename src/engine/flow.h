@@ -8,9 +8,6 @@
 
 namespace block_world
 {
-/// A sum that cancels to less than this share of its terms is zero: what is left is rounding, and would otherwise grow from order to order.
-constexpr double kCancelled = 64 * 2.220446049250313e-16;
-
 /// A touch that carries force along an arc.
 struct Rest
 {

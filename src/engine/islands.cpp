@@ -125,8 +125,7 @@ double World::Engine::leastForce(const Island& island) const
 /// come again at once, and again.
 bool World::Engine::letGo(Island& island, const Time& time)
 {
-  constexpr double kInstant = 2.220446049250313e-16;  // s, by which instants differ
-  const auto next = [](const Rest& rest) { return rest.force[0] + kInstant * rest.force[1]; };
+  const auto next = [](const Rest& rest) { return rest.force[0] + kRounding * rest.force[1]; };
   const auto least = std::min_element(island.rests.begin(), island.rests.end(), [&](const Rest& p, const Rest& q) { return next(p) < next(q); });
   if (least == island.rests.end() || next(*least) > leastForce(island))
     return false;
@@ -247,8 +246,7 @@ void World::Engine::dissolve(int body, const Time& time)
 /// A component of the velocity that has decayed to the rounding of the others is zero: else it would go on decaying, in arcs as short as its time.
 void World::Engine::endDecay(Member& m) const
 {
-  constexpr double kDecayed = 64 * 2.220446049250313e-16;
-  const double radius = bodies[m.body].shape->radius, least = kDecayed * (m.velocity.norm() + radius * std::abs(m.omega));
+  const double radius = bodies[m.body].shape->radius, least = kCancelled * (m.velocity.norm() + radius * std::abs(m.omega));
   for (double* component : { &m.velocity.x(), &m.velocity.y() })
     if (std::abs(*component) <= least)
       *component = 0.0;

@@ -7,9 +7,6 @@ namespace block_world
 {
 namespace
 {
-/// Relative rounding of coordinates; in s, what instants differ by at least (Time).
-constexpr double kRounding = 2.220446049250313e-16;
-
 void fetchLines(const void* from, const void* to)
 {
   for (const char* line = static_cast<const char*>(from); line < static_cast<const char*>(to); line += kCacheLine)

@@ -6,6 +6,12 @@
 
 namespace block_world
 {
+/// Relative rounding; in s also what instants differ by (Time), whose fractions of a second are below 1.
+constexpr double kRounding = 2.220446049250313e-16;
+
+/// A sum that cancels to less than this share of its terms is zero: what is left is rounding, and would otherwise grow.
+constexpr double kCancelled = 64 * kRounding;
+
 /// Highest power of time in an arc. Jorba & Zou (2005): where the products of series are all the work, the cheapest order for a relative error eps is
 /// about 1 - ln(eps)/2 = 18. An order costs as much beside its products, and so does an arc beside its orders: with more of them arcs last longer.
 /// Odd, as coefficients are read two at a time.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "body.h"
@@ -17,6 +18,12 @@ struct Member
   Vec2 acceleration = Vec2::Zero();
   double alpha = 0.0;
   double inverse_mass = 0.0, inverse_inertia = 0.0;
+
+  /// m, radius of gyration of what can move.
+  double gyration() const
+  {
+    return std::sqrt(inverse_mass / inverse_inertia);
+  }
 };
 
 /// A vertex of body a within the shell of a face of body b. Gap g = n.(x_a + R_a p - x_b) - o; its gradient by the two twists is
