@@ -292,6 +292,18 @@ inline Case rockingLoad()
   return item;
 }
 
+/// A square of side 1 rests from the start on a floor at height 0, the body of that number, with the same force at both lower corners.
+template <class Motion>
+void restOnFloor(Case& item, int floor, double force, const Motion& motion)
+{
+  item.rest_from = 0.0;
+  item.rests.assign(2, row(0, Kind::Rest, 0, floor, Vec2(0, 0), Vec2(0, 1), 0, force));
+  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
+    rests[0].point.x() = motion(t).position.x() - 0.5;
+    rests[1].point.x() = motion(t).position.x() + 0.5;
+  };
+}
+
 /// Slides to and fro on the floor on a stiff spring, braked and pushed by a wrench: powers change much from sample to sample.
 inline Case brakedSlider()
 {
@@ -314,12 +326,7 @@ inline Case brakedSlider()
   item.damping_loss = [=, work = item.thrust_work](double t) {
     return stored(0) + work(t) - stored(t) - 500 * motion(t).velocity.squaredNorm();
   };
-  item.rest_from = 0.0;
-  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 5), row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 5) };
-  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
-    rests[0].point.x() = motion(t).position.x() - 0.5;
-    rests[1].point.x() = motion(t).position.x() + 0.5;
-  };
+  restOnFloor(item, 1, 5, motion);
   return item;
 }
 
@@ -343,12 +350,7 @@ inline Case cancellingDifferences()
   item.duration = 0.1;
   item.gravity = [](double) { return 1.0; };
   item.spring = [=](double t) { return 5e3 * std::pow(motion(t).position.x(), 2); };
-  item.rest_from = 0.0;
-  item.rests = { row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0.5), row(0, Kind::Rest, 0, 1, Vec2(0, 0), Vec2(0, 1), 0, 0.5) };
-  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
-    rests[0].point.x() = motion(t).position.x() - 0.5;
-    rests[1].point.x() = motion(t).position.x() + 0.5;
-  };
+  restOnFloor(item, 1, 0.5, motion);
   return item;
 }
 
@@ -370,12 +372,7 @@ inline Case brakedIntoWall(double lift = 0.0)
     item.events.push_back(row(hit, Kind::Impact, 0, 1, Vec2(1, y), Vec2(-1, 0), -speed, 0.5 * speed));
   item.damping_loss = [=](double t) { return 4.5 - 0.5 * std::pow(3 - 0.04 * motion(t).position.x(), 2); };
   item.impact_loss = Steps{ { { hit, 0.5 * speed * speed } } };
-  item.rest_from = 0.0;
-  item.rests = { row(0, Kind::Rest, 0, 2, Vec2(0, 0), Vec2(0, 1), 0, 0), row(0, Kind::Rest, 0, 2, Vec2(0, 0), Vec2(0, 1), 0, 0) };
-  item.update_rests = [=](double t, std::vector<ContactRow>& rests) {
-    rests[0].point.x() = motion(t).position.x() - 0.5;
-    rests[1].point.x() = motion(t).position.x() + 0.5;
-  };
+  restOnFloor(item, 2, 0, motion);
   return item;
 }
 
