@@ -8,19 +8,6 @@ namespace block_world
 {
 namespace
 {
-/// The whole numbers twice.
-struct Numbers
-{
-  VectorSeries of;
-
-  Numbers()
-  {
-    for (int n = 0; n <= kOrder; ++n)
-      of[n] = Vec2::Constant(n);
-  }
-};
-const Numbers kNumbers;
-
 /// Length and direction of the vector d up to an order, from length' = u.d' and length u = d; values of lower orders are there already. Where the
 /// ends meet at the start the length is t |e| with e = d / t, so that the order above is needed of d.
 ///
@@ -49,7 +36,7 @@ void findLength(SpringSeries& spring, int order)
     const Vec2& direction = u[top - i];
     const Vec2 part = length[i].cwiseProduct(direction);
     placed += part;
-    lengthened += kNumbers.of[i].cwiseProduct(part);
+    lengthened += i * part;
     moved += spring.rate[i].cwiseProduct(direction);
   }
   const Vec2 rest = spring.d[top] - placed;
