@@ -17,7 +17,7 @@ void Flow::begin(std::vector<Body>& bodies, const std::vector<SpringLink>& links
                  const std::vector<Member>& members, std::vector<Rest>& rests)
 {
   members_room_.provide(members.size(), work_);
-  rests_room_.provide(rests.size(), rest_work_, row_, forces_, residual_);
+  rests_room_.provide(rests.size(), rest_work_, row_, forces_, turning_);
   work_.resize(members.size());
   for (std::size_t i = 0; i < members.size(); ++i)
   {
@@ -126,6 +126,16 @@ inline void Flow::push(const RestWork& rest, const SizedSum& force, const SizedS
     work_[rest.b].act(-force.sum, force.size, -torque.sum.y(), torque.size.y());
 }
 
+/// The same of its newest force, to which this is added.
+inline void Flow::press(RestWork& rest, int n, double force)
+{
+  rest.force[n] += Vec2::Constant(force);
+  SizedSum along, torque;
+  along.add(force * rest.normal[0]);
+  torque.add(force * rest.levers[0]);
+  push(rest, along, torque);
+}
+
 /// Contact forces of the orders below n, whose normals and levers turn: their part of order n.
 void Flow::contactKnown(int n)
 {
@@ -144,63 +154,58 @@ void Flow::contactKnown(int n)
   }
 }
 
-/// (n + 1)(n + 2) times the gap's coefficient of order n + 2, from the accelerations known so far: J q'' and what the turning of arm and normal adds,
-/// of which the lower orders decide all but the angles' coefficients of this order, which are in J q''.
-inline double Flow::gapAcceleration(const RestWork& r, int n) const
+/// What the turning of arm and normal adds to (n + 1)(n + 2) times the gap's coefficient of order n + 2: the lower orders decide it.
+inline double Flow::turning(const RestWork& r, int n) const
 {
   const double factor = (n + 1) * (n + 2);
-  double turning = turns(r) ? factor * cauchy(r.normal, r.reach, n + 2, 1, n + 1) : 0.0;
+  double sum = turns(r) ? factor * cauchy(r.normal, r.reach, n + 2, 1, n + 1) : 0.0;
+  if (r.a >= 0)
+    sum += factor * work_[r.a].known.dot(Vec2(r.along.x(), r.levers[0].x()));
+  if (r.b >= 0)
+    sum += factor * work_[r.b].known.dot(Vec2(r.along.y(), -r.levers[0].y()));
+  return sum;
+}
+
+/// The other part, J q'', from the accelerations known so far.
+inline double Flow::opening(const RestWork& r) const
+{
   Vec2 apart = Vec2::Zero();
+  double sum = 0.0;
   if (r.a >= 0)
   {
-    const BodyWork& w = work_[r.a];
-    apart += w.a;
-    turning += r.levers[0].x() * (w.alpha + factor * w.known.y()) + factor * w.known.x() * r.along.x();
+    apart += work_[r.a].a;
+    sum += r.levers[0].x() * work_[r.a].alpha;
   }
   if (r.b >= 0)
   {
-    const BodyWork& w = work_[r.b];
-    apart -= w.a;
-    turning += factor * w.known.x() * r.along.y() - r.levers[0].y() * (w.alpha + factor * w.known.y());
+    apart -= work_[r.b].a;
+    sum -= r.levers[0].y() * work_[r.b].alpha;
   }
-  return r.normal[0].dot(apart) + turning;
-}
-
-/// Solves A lambda = forces_, with one step of iterative refinement.
-void Flow::solveForces()
-{
-  const int m = factor_.size();
-  residual_ = forces_;
-  factor_.solve(forces_.data());
-  for (int i = 0; i < m; ++i)
-    for (int j = 0; j < m; ++j)
-      residual_[i] -= gram_(i, j) * forces_[j];
-  factor_.solve(residual_.data());
-  for (int i = 0; i < m; ++i)
-    forces_[i] += residual_[i];
+  return sum + r.normal[0].dot(apart);
 }
 
 /// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish: A lambda_n = -(n+1)(n+2) g_{n+2}.
+///
+/// Forces of several touches may balance and be a million times as large as what they balance, as in a jam. What rounding leaves open is closed once
+/// more, so that the accelerations keep the gaps to their own rounding, not to that of the forces.
 void Flow::contactSolve(int n)
 {
   const std::size_t m = rest_work_.size();
   for (std::size_t i = 0; i < m; ++i)
-    forces_[i] = -gapAcceleration(rest_work_[i], n);
-  if (m == 1)
-    forces_[0] /= gram_(0, 0);
-  else
-    solveForces();
-  for (std::size_t i = 0; i < m; ++i)
   {
-    RestWork& r = rest_work_[i];
-    const double lambda = forces_[i];
-    (*rests_)[i].force[n] = lambda;
-    r.force[n] = Vec2::Constant(lambda);
-    SizedSum force, torque;
-    force.add(lambda * r.normal[0]);
-    torque.add(lambda * r.levers[0]);
-    push(r, force, torque);
+    turning_[i] = turning(rest_work_[i], n);
+    rest_work_[i].force[n] = Vec2::Zero();
   }
+  for (int pass = m > 1 ? 2 : 1; pass > 0; --pass)
+  {
+    for (std::size_t i = 0; i < m; ++i)
+      forces_[i] = -turning_[i] - opening(rest_work_[i]);
+    factor_.solve(forces_.data());
+    for (std::size_t i = 0; i < m; ++i)
+      press(rest_work_[i], n, forces_[i]);
+  }
+  for (std::size_t i = 0; i < m; ++i)
+    (*rests_)[i].force[n] = rest_work_[i].force[n].x();
 }
 
 /// Writes order n + 2 of the arcs and what turns with it. Returns false, with that order zero, where it is so large that squares would overflow: of
@@ -258,14 +263,14 @@ void Flow::expand(std::vector<Body>& bodies, const std::vector<SpringLink>& link
   const int m = static_cast<int>(rests.size());
   if (m > 0)
   {
-    gram_.resize(m);
     factor_.clear();
     row_.resize(m);
     forces_.resize(m);
+    turning_.resize(m);
     for (int i = 0; i < m; ++i)
     {
       for (int j = 0; j <= i; ++j)
-        gram_(i, j) = gram_(j, i) = row_[j] = contactGram(rests[i].touch, rests[j].touch, members);
+        row_[j] = contactGram(rests[i].touch, rests[j].touch, members);
       factor_.append(row_.data(), kTrusted);
     }
   }

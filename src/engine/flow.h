@@ -108,9 +108,10 @@ private:
   void placeRests(int n);
   void findLevers(RestWork& rest, int n);
   void push(const RestWork& rest, const SizedSum& force, const SizedSum& torque);
+  void press(RestWork& rest, int n, double force);
   void contactKnown(int n);
-  double gapAcceleration(const RestWork& rest, int n) const;
-  void solveForces();
+  double turning(const RestWork& rest, int n) const;
+  double opening(const RestWork& rest) const;
   void contactSolve(int n);
   bool store(int n);
   bool endsEarly() const;
@@ -137,8 +138,7 @@ private:
   std::vector<Rest>* rests_ = nullptr;
   std::vector<LinkWork> links_;
   Cholesky factor_;
-  SymmetricMatrix gram_;
-  std::vector<double> row_, forces_, residual_;
+  std::vector<double> row_, forces_, turning_;
 };
 
 }  // namespace block_world
