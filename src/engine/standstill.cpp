@@ -124,18 +124,24 @@ void ContactGroup::projectOut(const std::vector<int>& rows)
     columns.col(k) /= norm[k];
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(std::sqrt(kTrusted));
+  qr.setThreshold(std::sqrt(kRounding));
   const int rank = static_cast<int>(qr.rank());
   Eigen::VectorXd along = qr.householderQ().transpose() * velocity;
-  const Eigen::VectorXd impulses = -qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(along.head(rank));
-  for (int k = 0; k < rank; ++k)
-  {
-    const int which = qr.colsPermutation().indices()[k];
-    touches[rows[which]].capture += impulses[k] / norm[which];
-  }
-
   along.tail(size - rank).setZero();
-  const Eigen::VectorXd change = -weight.cwiseProduct(qr.householderQ() * along);
+  const Eigen::VectorXd taken = -(qr.householderQ() * along), change = weight.cwiseProduct(taken);
+
+  // The impulses that do it: on short levers large ones that balance, so from what the first leave once more.
+  Eigen::VectorXd impulses = Eigen::VectorXd::Zero(count), left = taken;
+  for (int pass = 0; pass < 2; ++pass)
+  {
+    along = qr.householderQ().transpose() * left;
+    const Eigen::VectorXd more = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(along.head(rank));
+    for (int k = 0; k < rank; ++k)
+      impulses[qr.colsPermutation().indices()[k]] += more[k];
+    left = taken - columns * impulses;
+  }
+  for (int k = 0; k < count; ++k)
+    touches[rows[k]].capture += impulses[k] / norm[k];
   for (std::size_t i = 0; i < members.size(); ++i)
   {
     members[i].velocity += change.segment<2>(3 * i);

@@ -57,8 +57,9 @@ double leastDistance(const MatrixXd& c, const VectorXd& y, double enough)
 }
 }  // namespace
 
-// N s, what of the impulses j no pushes p >= 0 at the same touches would do: min |J'(j - p)| sqrt(m) in the metric M^-1, with m all movable mass. On a
-// short lever large pulls and pushes do little together.
+// N s, what of the impulses j no pushes p >= 0 at touches would do: min |J'(j - p)| sqrt(m) in the metric M^-1, with m all movable mass. On a short
+// lever large pulls and pushes do little together. What rests nearby may push, too, though its impulses add up to nothing: a bounce pushes up what
+// the capture then stops.
 double Replay::pull(const std::vector<const ContactRow*>& events, double enough) const
 {
   std::vector<int> place(run_.bodies, -1);
@@ -70,11 +71,13 @@ double Replay::pull(const std::vector<const ContactRow*>& events, double enough)
       mass += drive_->bodies[body].mass;
       place[body] = count++;
     }
-  MatrixXd columns = MatrixXd::Zero(3 * count, events.size());
+  std::vector<const ContactRow*> touches = events;
+  touches.insert(touches.end(), rests_.begin(), rests_.end());
+  MatrixXd columns = MatrixXd::Zero(3 * count, touches.size());
   VectorXd pulls = VectorXd::Zero(3 * count), all = pulls;
-  for (size_t k = 0; k < events.size(); ++k)
+  for (size_t k = 0; k < touches.size(); ++k)
   {
-    const ContactRow& row = *events[k];
+    const ContactRow& row = *touches[k];
     for (const int body : { row.a, row.b })
     {
       if (!scene_.movable(body))
@@ -84,8 +87,9 @@ double Replay::pull(const std::vector<const ContactRow*>& events, double enough)
       columns.col(k).segment<2>(3 * place[body]) = force / std::sqrt(drive_->bodies[body].mass);
       columns(3 * place[body] + 2, k) = torque / std::sqrt(motion_.inertia(*drive_, body));
     }
-    pulls += std::min(0.0, row.impulse) * columns.col(k);
-    all += row.impulse * columns.col(k);
+    const double impulse = k < events.size() ? row.impulse : 0.0;
+    pulls += std::min(0.0, impulse) * columns.col(k);
+    all += impulse * columns.col(k);
     columns.col(k).normalize();
   }
   const double share = std::sqrt(mass), few = pulls.norm();
