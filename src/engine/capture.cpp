@@ -159,6 +159,9 @@ void ContactGroup::capture()
     others_.clear();
     carryOut();
   }
+  // Others that depend on them nearly may have left them a share of their rates.
+  if (!atRest(pressed_))
+    bringToRest(pressed_);
   for (int i : pressed_)
     touches[i].active = true;
 }
