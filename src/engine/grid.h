@@ -40,7 +40,7 @@ public:
   template <class A>
   void exchange(A& archive)
   {
-    archive(alone_, levels_, homes_, entries_, blocks_);
+    archive(few_, levels_, homes_, entries_, blocks_);
   }
 
 private:
@@ -115,7 +115,7 @@ private:
   void link(int entry);
   void unlink(int entry);
 
-  bool alone_ = false;  ///< a single body has nobody to be near
+  bool few_ = false;            ///< so few bodies that all are near each other
   std::vector<Level> levels_;  ///< those that bodies live on, finest first
   std::vector<Home> homes_;
   std::vector<Entry> entries_;
