@@ -95,9 +95,9 @@ double Detector::within(const Body& body, const Snapshot& now, const Vec2& low, 
   return std::min(reach, span(reach));
 }
 
-/// Bound of |g''| over the horizon for every vertex of one body and every face of the other:
-/// g'' = n.(d'' - alpha perp d - 2 w perp d' - w^2 d), d from the face body's centre to the vertex.
-double Detector::curvature(const View& f, const View& v, double horizon) const
+/// Bound of |g''| over the horizon for every point of one body within a radius of its centre and every face of the other:
+/// g'' = n.(d'' - alpha perp d - 2 w perp d' - w^2 d), d from the face body's centre to the point.
+double Detector::curvature(const View& f, const View& v, double radius, double horizon) const
 {
   const double jerk = f.body->arc.jerk + v.body->arc.jerk;
   const double a = (v.now->acceleration - f.now->acceleration).norm() + (jerk > 0.0 ? jerk * horizon : 0.0);
@@ -109,7 +109,6 @@ double Detector::curvature(const View& f, const View& v, double horizon) const
   double w_v, alpha_v, w_f, alpha_f;
   spin(v, w_v, alpha_v);
   spin(f, w_f, alpha_f);
-  const double radius = v.body->shape->radius;
   double bound = a + (alpha_v + w_v * w_v) * radius;
   if (w_f > 0.0)
   {
@@ -118,6 +117,19 @@ double Detector::curvature(const View& f, const View& v, double horizon) const
     bound += 2.0 * w_f * (speed + w_v * radius) + (alpha_f + w_f * w_f) * distance;
   }
   return bound;
+}
+
+/// Span for which the circle of a body stays above a face of the other; negative where it does not. From afar a body that spins fast is a circle.
+double Detector::roundAbove(const Face& face, const Vec2& normal, const View& f, const View& v, double horizon) const
+{
+  const Vec2 between = v.now->position - f.now->position;
+  const double gap = normal.dot(between) - face.offset - v.body->shape->radius;
+  if (gap <= 0.0)
+    return -1.0;
+  const double rate = normal.dot(v.now->velocity - f.now->velocity - f.now->omega * perp(between));
+  const double bound_now = curvature(f, v, 0.0, 0.0);
+  const double span = std::min(horizon, 2.0 * firstZero(gap, rate, -bound_now));
+  return std::min(span, firstZero(gap, rate, std::isinf(span) ? -bound_now : -curvature(f, v, 0.0, span)));
 }
 
 void Detector::localSeries(const View& view, bool of_face)
@@ -220,6 +232,9 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
 {
   const Face& face = f.body->shape->faces[index];
   const Vec2 normal = f.frame.rotate(face.normal);
+  const double round = roundAbove(face, normal, f, v, horizon);
+  if (round >= horizon)
+    return { horizon, false };
   const Vec2 between = v.now->position - f.now->position;
   const Vec2 relative = v.now->velocity - f.now->velocity;
   const auto& vertices = v.body->shape->vertices;
@@ -235,14 +250,14 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
   }
 
   // The bound of the curvature over twice the span that the bound at this instant suggests.
-  const double bound_now = curvature(f, v, 0.0);
+  const double radius = v.body->shape->radius, bound_now = curvature(f, v, radius, 0.0);
   // Those in the shell that do not leave it at once have no need of a bound.
   double span = kNever;
   for (const Open& o : open_)
     if (o.gap > 0.5 * tolerance_ || (o.rate > 0.0 && o.rate * o.rate > 2.0 * bound_now * tolerance_))
       span = std::min(span, firstZero(std::max(o.gap, 0.5 * tolerance_), o.rate, -bound_now));
   span = std::min(horizon, 2.0 * std::max(span, std::sqrt(tolerance_ / (bound_now + 1e-300))));
-  const double bound = std::isinf(span) ? bound_now : curvature(f, v, span);
+  const double bound = std::isinf(span) ? bound_now : curvature(f, v, radius, span);
 
   Certificate certificate{ horizon, false };
   for (const Open& o : open_)
@@ -257,7 +272,7 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
     if (one.span < certificate.span || (one.span == certificate.span && one.contact))
       certificate = one;
   }
-  return certificate;
+  return round > certificate.span ? Certificate{ round, false } : certificate;
 }
 
 /// Where nothing turns and both accelerate alike every gap changes at a constant rate: the bodies meet when the last of the closing gaps is

@@ -134,7 +134,8 @@ private:
     double span;
     bool contact;
   };
-  double curvature(const View& face_view, const View& vertex_view, double horizon) const;
+  double curvature(const View& face_view, const View& vertex_view, double radius, double horizon) const;
+  double roundAbove(const Face& face, const Vec2& normal, const View& face_view, const View& vertex_view, double horizon) const;
   Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
   bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
   Certificate shell(const Face& face, const Vec2& vertex, double gap, const View& face_view, const View& vertex_view, double horizon);
