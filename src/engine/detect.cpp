@@ -10,6 +10,15 @@ namespace
 {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+/// Orders of directions that turn by so much: the next one, angle^(n + 1) / (n + 1)!, is rounding. 20 for 1.5 radians.
+int directionOrders(double angle)
+{
+  int n = 1;
+  for (double next = 0.5 * angle * angle; next > 0.5 * kRounding && n < kOrder; next *= angle / (n + 1))
+    ++n;
+  return n;
+}
+
 /// Whether a body's angle changes along its arc.
 bool turns(const View& view)
 {
@@ -132,12 +141,13 @@ double Detector::roundAbove(const Face& face, const Vec2& normal, const View& f,
   return std::min(span, firstZero(gap, rate, std::isinf(span) ? -bound_now : -curvature(f, v, 0.0, span)));
 }
 
-void Detector::localSeries(const View& view, bool of_face)
+void Detector::localSeries(const View& view, int order, Local& local) const
 {
-  Local& local = of_face ? face_local_ : vertex_local_;
   const Body& body = *view.body;
+  if (local.body == &body && local.order >= order)
+    return;
   local.body = &body;
-  local.degree = body.arc.degree;
+  local.order = order;
   local.x.fill(0.0);
   local.y.fill(0.0);
   local.c.fill(0.0);
@@ -164,19 +174,36 @@ void Detector::localSeries(const View& view, bool of_face)
   local.c[0] = view.frame.cosine;
   local.s[0] = view.frame.sine;
   if (turns(view))
-    trigonometricSeries(angle, std::max(2, body.arc.degree), kOrder, local.c, local.s);
+    trigonometricSeries(angle, std::max(2, body.arc.degree), order, local.c, local.s);
 }
 
-/// The gap of one vertex within the shell, as a polynomial: g = N.(X_v + P - X_f) - o.
+/// Where nothing turns the gap of one vertex within the shell is a parabola, which from zero either opens by more than can be resolved or is guarded
+/// a level below.
+Detector::Certificate Detector::parabola(const Vec2& normal, const Open& open, const View& f, const View& v, double horizon) const
+{
+  const double bend = normal.dot(v.now->acceleration - f.now->acceleration);
+  const bool opens = open.gap > resolution_ || (open.rate > 0.0 && open.rate * open.rate > -2.0 * resolution_ * bend);
+  const double zero = firstZero(opens ? std::max(open.gap, 0.0) : guard_, open.rate, bend);
+  return zero < horizon ? Certificate{ zero, true } : Certificate{ horizon, false };
+}
+
+/// The same as a polynomial: g = N.(X_v + P - X_f) - o.
 Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, double gap, const View& f, const View& v, double horizon)
 {
-  if (face_local_.body != f.body)
-    localSeries(f, true);
-  if (vertex_local_.body != v.body)
-    localSeries(v, false);
-  // Where nothing turns the gap has the degree of the arcs.
-  const bool face_turns = turns(f), vertex_turns = turns(v);
-  const int order = face_turns || vertex_turns ? kOrder : std::max(face_local_.degree, vertex_local_.degree);
+  // Directions keep their digits up to a turn of 1.5 radians.
+  const double turn = std::max(std::abs(f.now->omega), std::abs(v.now->omega));
+  const double twist = std::max(std::abs(f.now->alpha), std::abs(v.now->alpha));
+  const double angular_jerk = std::max(f.body->arc.angular_jerk, v.body->arc.angular_jerk);
+  double span = horizon;
+  if (turn > 0.0)
+    span = std::min(span, 1.0 / turn);
+  if (twist > 0.0)
+    span = std::min(span, 1.0 / std::sqrt(twist));
+
+  const int order = std::max({ 2, f.body->arc.degree, v.body->arc.degree,
+                               directionOrders((turn + (twist / 2.0 + angular_jerk / 6.0 * span) * span) * span) });
+  localSeries(f, order, face_local_);
+  localSeries(v, order, vertex_local_);
   Series nx, ny, dx, dy, g{};
   for (int k = 0; k <= order; ++k)
   {
@@ -186,24 +213,9 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
     dy[k] = vertex_local_.y[k] - face_local_.y[k] + vertex_local_.s[k] * vertex.x() + vertex_local_.c[k] * vertex.y();
   }
   for (int k = 0; k <= order; ++k)
-    g[k] = face_turns ? cauchy(nx, dx, k) + cauchy(ny, dy, k) : nx[0] * dx[k] + ny[0] * dy[k];
+    g[k] = turns(f) ? cauchy(nx, dx, k) + cauchy(ny, dy, k) : nx[0] * dx[k] + ny[0] * dy[k];
   g[0] = gap;
 
-  // Directions keep their digits up to a turn of one radian.
-  const double turn = std::max(std::abs(f.now->omega), std::abs(v.now->omega));
-  const double twist = std::max(std::abs(f.now->alpha), std::abs(v.now->alpha));
-  double span = horizon;
-  if (turn > 0.0)
-    span = std::min(span, 1.0 / turn);
-  if (twist > 0.0)
-    span = std::min(span, 1.0 / std::sqrt(twist));
-  if (std::isinf(span))
-  {
-    // Nothing turns and nothing ends: a parabola, which from zero either opens by more than can be resolved or is guarded a level below.
-    const bool opens = gap > resolution_ || (g[1] > 0.0 && g[1] * g[1] > -4.0 * resolution_ * g[2]);
-    const double zero = firstZero(opens ? std::max(gap, 0.0) : guard_, g[1], 2.0 * g[2]);
-    return { zero, zero < kNever };
-  }
   if (gap > resolution_)
   {
     const double zero = firstBelow(g, order, span, 0.0);
@@ -267,8 +279,14 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
       one.span = std::min(span, firstZero(o.gap - 0.25 * tolerance_, o.rate, -bound));  // into the shell, not through it
     else if (o.rate > 0.0 && o.rate * o.rate > 2.0 * bound * tolerance_)
       one.span = std::min(span, backIn(o.gap - 0.25 * tolerance_, o.rate, bound));
+    else if (!turns(f) && !turns(v))
+      one = parabola(normal, o, f, v, horizon);
     else
-      one = shell(face, vertices[o.vertex], o.gap, f, v, horizon);
+    {
+      // The bound also tells by when one that closes is closed.
+      const double closed = firstZero(std::max(o.gap, 0.0) + guard_, o.rate, bound);
+      one = shell(face, vertices[o.vertex], o.gap, f, v, closed < span ? std::min(horizon, 2.0 * closed) : horizon);
+    }
     if (one.span < certificate.span || (one.span == certificate.span && one.contact))
       certificate = one;
   }

@@ -134,29 +134,31 @@ private:
     double span;
     bool contact;
   };
-  double curvature(const View& face_view, const View& vertex_view, double radius, double horizon) const;
-  double roundAbove(const Face& face, const Vec2& normal, const View& face_view, const View& vertex_view, double horizon) const;
-  Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
-  bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
-  Certificate shell(const Face& face, const Vec2& vertex, double gap, const View& face_view, const View& vertex_view, double horizon);
-  void localSeries(const View& view, bool of_face);
-
-  double tolerance_ = 1e-6, resolution_ = 1e-14;
-  double guard_ = 1e-13;
-  Time time_;
+  /// Series of a body about the instant of a look: of its centre, and of the cosine and sine of its angle.
   struct Local
   {
     const Body* body = nullptr;
-    int degree = 0;
+    int order = 0;
     Series x{}, y{}, c{}, s{};
   };
-  Local face_local_, vertex_local_;
   /// A vertex that nothing holds on the face.
   struct Open
   {
     int vertex;
     double gap, rate;
   };
+  double curvature(const View& face_view, const View& vertex_view, double radius, double horizon) const;
+  double roundAbove(const Face& face, const Vec2& normal, const View& face_view, const View& vertex_view, double horizon) const;
+  Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
+  bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
+  Certificate parabola(const Vec2& normal, const Open& open, const View& face_view, const View& vertex_view, double horizon) const;
+  Certificate shell(const Face& face, const Vec2& vertex, double gap, const View& face_view, const View& vertex_view, double horizon);
+  void localSeries(const View& view, int order, Local& local) const;
+
+  double tolerance_ = 1e-6, resolution_ = 1e-14;
+  double guard_ = 1e-13;
+  Time time_;
+  Local face_local_, vertex_local_;
   std::vector<Open> open_;
   /// A face and the gap that it leaves.
   struct Side
