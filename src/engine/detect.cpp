@@ -329,28 +329,36 @@ bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon,
   return true;
 }
 
+/// The faces of one body that may leave a gap of at least so much. The lowest vertex of the other is no higher than its centre.
+void Detector::findSides(const View& f, const View& v, bool of_a, double least)
+{
+  const Polygon &face_shape = *f.body->shape, &vertex_shape = *v.body->shape;
+  if (vertex_shape.vertices.empty())
+    return;
+  const Vec2 between = f.frame.unrotate(v.frame.position - f.frame.position);
+  for (std::size_t i = 0; i < face_shape.faces.size(); ++i)
+    if (!(face_shape.faces[i].normal.dot(between) - face_shape.faces[i].offset < least))
+      sides_.push_back({ of_a, static_cast<int>(i), faceGap(face_shape.faces[i], f.frame, vertex_shape, v.frame), 0.0 });
+}
+
 double Detector::certify(Pair& pair, const View& a, const View& b, const Time& time, double horizon)
 {
   time_ = time;
   pair.contact_due = false;
   face_local_.body = vertex_local_.body = nullptr;
   const bool straight = !turns(a) && !turns(b) && a.now->acceleration == b.now->acceleration;
+  double needed = -kNever;
   if (pair.face >= 0 && !straight)
   {
     const View &f = pair.face_of_a ? a : b, &v = pair.face_of_a ? b : a;
     const double gap = faceGap(f.body->shape->faces[pair.face], f.frame, *v.body->shape, v.frame);
     if (gap > tolerance_ && gap > 0.5 * pair.face_gap)
       return face(pair, pair.face_of_a, pair.face, f, v, horizon).span;
+    needed = gap > 0.5 * tolerance_ ? gap : std::min(gap, 0.0) - 2.0 * guard_;
   }
   sides_.clear();
-  for (int side = 0; side < 2; ++side)
-  {
-    const View &f = side == 0 ? a : b, &v = side == 0 ? b : a;
-    const Polygon &face_shape = *f.body->shape, &vertex_shape = *v.body->shape;
-    if (!vertex_shape.vertices.empty())
-      for (std::size_t i = 0; i < face_shape.faces.size(); ++i)
-        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(face_shape.faces[i], f.frame, vertex_shape, v.frame), 0.0 });
-  }
+  findSides(a, b, true, needed);
+  findSides(b, a, false, needed);
   const auto best = std::max_element(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.gap < q.gap; });
   pair.face_of_a = best->of_a;
   pair.face = best->face;
