@@ -128,14 +128,12 @@ double Detector::curvature(const View& f, const View& v, double radius, double h
   return bound;
 }
 
-/// Span for which the circle of a body stays above a face of the other; negative where it does not. From afar a body that spins fast is a circle.
-double Detector::roundAbove(const Face& face, const Vec2& normal, const View& f, const View& v, double horizon) const
+/// Span for which the circle of a body stays above a face of the other, given its gap and the rate of that; negative where it does not. From afar a
+/// body that spins fast is a circle.
+double Detector::roundAbove(double gap, double rate, const View& f, const View& v, double horizon) const
 {
-  const Vec2 between = v.now->position - f.now->position;
-  const double gap = normal.dot(between) - face.offset - v.body->shape->radius;
   if (gap <= 0.0)
     return -1.0;
-  const double rate = normal.dot(v.now->velocity - f.now->velocity - f.now->omega * perp(between));
   const double bound_now = curvature(f, v, 0.0, 0.0);
   const double span = std::min(horizon, 2.0 * firstZero(gap, rate, -bound_now));
   return std::min(span, firstZero(gap, rate, std::isinf(span) ? -bound_now : -curvature(f, v, 0.0, span)));
@@ -244,25 +242,22 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
 {
   const Face& face = f.body->shape->faces[index];
   const Vec2 normal = f.frame.rotate(face.normal);
-  const double round = roundAbove(face, normal, f, v, horizon);
+  const Vec2 normal_v = v.frame.unrotate(normal), between = v.now->position - f.now->position;
+  const double radius = v.body->shape->radius, spin = v.now->omega - f.now->omega;
+  // Of the centre over the face; of a vertex, its place along the normal comes to it.
+  const double height = normal.dot(between) - face.offset;
+  const double rise = normal.dot(v.now->velocity - f.now->velocity - f.now->omega * perp(between));
+  const double round = roundAbove(height - radius, rise, f, v, horizon);
   if (round >= horizon)
     return { horizon, false };
-  const Vec2 between = v.now->position - f.now->position;
-  const Vec2 relative = v.now->velocity - f.now->velocity;
   const auto& vertices = v.body->shape->vertices;
   open_.clear();
   for (std::size_t k = 0; k < vertices.size(); ++k)
-  {
-    if (pair.resting.contains({ of_a, static_cast<unsigned>(index), static_cast<int>(k) }))
-      continue;
-    const Vec2 arm = v.frame.rotate(vertices[k]);
-    const Vec2 d = between + arm;
-    open_.push_back({ static_cast<int>(k), normal.dot(d) - face.offset,
-                      normal.dot(relative + v.now->omega * perp(arm) - f.now->omega * perp(d)) });
-  }
+    if (!pair.resting.contains({ of_a, static_cast<unsigned>(index), static_cast<int>(k) }))
+      open_.push_back({ static_cast<int>(k), height + normal_v.dot(vertices[k]), rise + spin * normal_v.dot(perp(vertices[k])) });
 
   // The bound of the curvature over twice the span that the bound at this instant suggests.
-  const double radius = v.body->shape->radius, bound_now = curvature(f, v, radius, 0.0);
+  const double bound_now = curvature(f, v, radius, 0.0);
   // Those in the shell that do not leave it at once have no need of a bound.
   double span = kNever;
   for (const Open& o : open_)

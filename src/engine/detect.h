@@ -148,7 +148,7 @@ private:
     double gap, rate;
   };
   double curvature(const View& face_view, const View& vertex_view, double radius, double horizon) const;
-  double roundAbove(const Face& face, const Vec2& normal, const View& face_view, const View& vertex_view, double horizon) const;
+  double roundAbove(double gap, double rate, const View& face_view, const View& vertex_view, double horizon) const;
   Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
   void findSides(const View& face_view, const View& vertex_view, bool of_a, double least);
   bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
