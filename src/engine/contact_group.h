@@ -28,6 +28,10 @@ public:
   std::vector<Member> members;
   std::vector<Touch> touches;
 
+  ContactGroup()
+  {
+    provide(2, 2);
+  }
   void clear()
   {
     members.clear();
@@ -73,6 +77,7 @@ private:
     double omega = 0.0;
   };
 
+  void provide(std::size_t rows, std::size_t bodies);
   double velocityOf(int i) const;
   void push(int i, double impulse);
   void scale(const ContactScales& scales);
