@@ -30,7 +30,9 @@ public:
 
   ContactGroup()
   {
-    provide(2, 2);
+    members.reserve(4);
+    touches.reserve(4);
+    provide(4, 4);
   }
   void clear()
   {

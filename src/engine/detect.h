@@ -111,6 +111,9 @@ public:
     tolerance_ = tolerance;
     resolution_ = resolution;
     guard_ = std::min(0.25 * tolerance, 16.0 * resolution);
+    // Of most polygons.
+    open_.reserve(8);
+    sides_.reserve(16);
   }
 
   /// m; a gap that is zero but for rounding is guarded this far below: above its rounding, far below the tolerance.
