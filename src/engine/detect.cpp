@@ -104,6 +104,31 @@ double Detector::within(const Body& body, const Snapshot& now, const Vec2& low, 
   return std::min(reach, span(reach));
 }
 
+/// Span for which a body of which a vertex rests on a face cannot turn about it by so much that another one reaches the shell; negative where one is
+/// there. Nearest to the face are the two next to it, as the body is convex. The angle by which each is above the face is no less than its sine.
+double Detector::upright(const Resting& one, const View& f, const View& v, double horizon) const
+{
+  const Polygon& shape = *v.body->shape;
+  const std::size_t count = shape.vertices.size(), k = one.vertex, former = (k + count - 1) % count, next = (k + 1) % count;
+  const Vec2 normal = v.frame.unrotate(f.frame.rotate(f.body->shape->faces[one.face].normal));
+  const double former_gap = normal.dot(shape.vertices[former] - shape.vertices[k]);
+  const double next_gap = normal.dot(shape.vertices[next] - shape.vertices[k]);
+  if (std::min(former_gap, next_gap) <= 0.5 * tolerance_)
+    return -1.0;
+  // Into the shell, not through it. What turns counter-clockwise lifts the next one.
+  const double down = (next_gap - 0.25 * tolerance_) / shape.faces[k].length;
+  const double up = (former_gap - 0.25 * tolerance_) / shape.faces[former].length;
+  const double spin = v.now->omega - f.now->omega, twist = v.now->alpha - f.now->alpha;
+  const double jerk = f.body->arc.angular_jerk + v.body->arc.angular_jerk;
+  const auto span = [&](double slack) {
+    return std::min({ horizon, firstZero(down, spin, twist - slack), firstZero(up, -spin, -twist - slack) });
+  };
+  if (jerk == 0.0)
+    return span(0.0);
+  const double reach = std::min(horizon, 2.0 * span(0.0));
+  return std::min(reach, span(jerk * reach));
+}
+
 /// Bound of |g''| over the horizon for every point of one body within a radius of its centre and every face of the other:
 /// g'' = n.(d'' - alpha perp d - 2 w perp d' - w^2 d), d from the face body's centre to the point.
 double Detector::curvature(const View& f, const View& v, double radius, double horizon) const
@@ -341,6 +366,13 @@ double Detector::certify(Pair& pair, const View& a, const View& b, const Time& t
   time_ = time;
   pair.contact_due = false;
   face_local_.body = vertex_local_.body = nullptr;
+  if (!pair.resting.empty())
+  {
+    const Resting& one = pair.resting.first();
+    const double span = upright(one, one.face_of_a ? a : b, one.face_of_a ? b : a, horizon);
+    if (span > 0.0)
+      return span;
+  }
   const bool straight = !turns(a) && !turns(b) && a.now->acceleration == b.now->acceleration;
   double needed = -kNever;
   if (pair.face >= 0 && !straight)

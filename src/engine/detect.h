@@ -39,6 +39,15 @@ public:
     if (free != ones_.end())
       *free = one;
   }
+  const Resting& first() const
+  {
+    return ones_.front();
+  }
+  /// Where two vertices rest, flat is on flat, and neither body turns against the other.
+  bool flat() const
+  {
+    return ones_[1].vertex >= 0;
+  }
   bool contains(const Resting& one) const
   {
     return !empty() && std::find(ones_.begin(), ones_.end(), one) != ones_.end();
@@ -153,6 +162,7 @@ private:
   double curvature(const View& face_view, const View& vertex_view, double radius, double horizon) const;
   double roundAbove(double gap, double rate, const View& face_view, const View& vertex_view, double horizon) const;
   Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
+  double upright(const Resting& one, const View& face_view, const View& vertex_view, double horizon) const;
   void findSides(const View& face_view, const View& vertex_view, bool of_a, double least);
   bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
   Certificate parabola(const Vec2& normal, const Open& open, const View& face_view, const View& vertex_view, double horizon) const;
