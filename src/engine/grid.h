@@ -21,6 +21,12 @@ public:
   /// radii: m, of the bodies' circles, infinite for those that have no place in the grid; shell: m.
   void configure(const std::vector<double>& radii, double shell);
 
+  /// Whether no body ever leaves its cell.
+  bool endless() const
+  {
+    return few_;
+  }
+
   /// Lists the body where its centre is. Returns whether that changed its cell.
   bool place(int body, const Vec2& centre);
 

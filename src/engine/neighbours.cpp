@@ -125,6 +125,11 @@ void World::Engine::lookAtCell(int body, const Time& time)
 void World::Engine::promiseCell(int body, const Time& time)
 {
   const Body& b = bodies[body];
+  if (grid_.endless())
+  {
+    promises_.set(cellSlot(body), Time::infinity());
+    return;
+  }
   const double horizon = b.arc.end - time;
   const Grid::Box box = grid_.keeps(body);
   const double span = detector_.within(b, snapshot(body, time), box.low, box.high, horizon);
