@@ -166,12 +166,15 @@ inline double Flow::gapAcceleration(const RestWork& r, int n) const
   return r.normal[0].dot(apart) + turning;
 }
 
-/// Solves A lambda = forces_, with one step of iterative refinement.
-void Flow::solveForces()
+/// Solves A lambda = forces_, where asked for with one step of iterative refinement.
+void Flow::solveForces(bool refined)
 {
   const int m = factor_.size();
-  residual_ = forces_;
+  if (refined)
+    residual_ = forces_;
   factor_.solve(forces_.data());
+  if (!refined)
+    return;
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j)
       residual_[i] -= gram_(i, j) * forces_[j];
@@ -180,7 +183,8 @@ void Flow::solveForces()
     forces_[i] += residual_[i];
 }
 
-/// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish: A lambda_n = -(n+1)(n+2) g_{n+2}.
+/// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish: A lambda_n = -(n+1)(n+2) g_{n+2}. Forces at the start
+/// are to balance to rounding; later orders add to them and need it only where rows depend on each other nearly.
 void Flow::contactSolve(int n)
 {
   const std::size_t m = rest_work_.size();
@@ -189,7 +193,7 @@ void Flow::contactSolve(int n)
   if (m == 1)
     forces_[0] /= gram_(0, 0);
   else
-    solveForces();
+    solveForces(n == 0 || factor_.doubtful());
   for (std::size_t i = 0; i < m; ++i)
   {
     RestWork& r = rest_work_[i];
