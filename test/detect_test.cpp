@@ -288,6 +288,40 @@ TEST(Detector, RestingVerticesAreNotGuarded)
   }
 }
 
+// Of rectangles, whose face k goes from vertex k to the next one.
+TEST(Detector, WhatRestsFlatCannotTurn)
+{
+  const Polygon a = makePolygon(rectangle(1.0, 0.5)), b = makePolygon(rectangle(0.6, 0.3)), floor = makeHalfPlane(Vec2(0.0, 1.0), 0.0);
+  const struct
+  {
+    const char* what;
+    std::vector<Resting> rests;
+    bool flat;
+  } cases[] = {
+    { "nothing", {}, false },
+    { "a corner", { { true, 2, 0 } }, false },
+    { "two on one face", { { true, 2, 0 }, { true, 2, 1 } }, true },
+    { "one on the end of each other's face", { { true, 2, 0 }, { false, 0, 3 } }, true },
+    { "the other end", { { false, 0, 2 }, { true, 2, 1 } }, true },
+    { "one on two faces, of an edge that is nearly straight", { { true, 2, 0 }, { true, 1, 0 } }, false },
+    { "the face does not end at the vertex", { { true, 2, 0 }, { false, 0, 1 } }, false },
+    { "nor does the other one", { { true, 2, 2 }, { false, 0, 3 } }, false },
+    { "a third one", { { true, 2, 0 }, { true, 1, 0 }, { false, 0, 3 } }, true },
+  };
+  for (const auto& c : cases)
+  {
+    Pair pair;
+    for (const Resting& one : c.rests)
+      pair.resting.add(one);
+    EXPECT_EQ(restsFlat(pair, a, b), c.flat) << c.what;
+  }
+  Pair pair;
+  pair.resting.add({ true, 0, 0 });
+  EXPECT_FALSE(restsFlat(pair, floor, b));
+  pair.resting.add({ true, 0, 1 });
+  EXPECT_TRUE(restsFlat(pair, floor, b));
+}
+
 // What rests on one corner can only turn about it. Whatever turns, no corner comes down within a promise, and where only the body turns, at a constant
 // speed, a few promises lead to where the next corner does, at an angle whose sine is its height over its distance.
 TEST(Detector, OnACornerABodyTurnsAboutIt)

@@ -32,6 +32,19 @@ double backIn(double g, double v, double m)
 }
 }  // namespace
 
+bool restsFlat(const Pair& pair, const Polygon& a, const Polygon& b)
+{
+  const auto endsAt = [](const Polygon& shape, int face, int vertex) {
+    return vertex == face || vertex == (face + 1) % static_cast<int>(shape.vertices.size());
+  };
+  return pair.resting.anyTwo([&](const Resting& p, const Resting& q) {
+    if (p.face_of_a == q.face_of_a)
+      return p.face == q.face;
+    const Resting &on_a = p.face_of_a ? p : q, &on_b = p.face_of_a ? q : p;
+    return endsAt(a, on_a.face, on_b.vertex) && endsAt(b, on_b.face, on_a.vertex);
+  });
+}
+
 double Detector::apart(const Body& a, const Snapshot& now_a, const Body& b, const Snapshot& now_b, double horizon) const
 {
   const double jerk = a.arc.jerk + b.arc.jerk;

@@ -43,10 +43,15 @@ public:
   {
     return ones_.front();
   }
-  /// Where two vertices rest, flat is on flat, and neither body turns against the other.
-  bool flat() const
+  /// Whether this holds for any two of them.
+  template <class Condition>
+  bool anyTwo(const Condition& condition) const
   {
-    return ones_[1].vertex >= 0;
+    for (std::size_t i = 1; i < ones_.size() && ones_[i].vertex >= 0; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (condition(ones_[i], ones_[j]))
+          return true;
+    return false;
   }
   bool contains(const Resting& one) const
   {
@@ -97,6 +102,9 @@ struct alignas(kCacheLine) Pair
 };
 
 static_assert(sizeof(Pair) == kCacheLine, "a pair is a line of the cache");
+
+/// Whether the vertices that rest keep the bodies from turning against each other: two on one face, or one on a face of either that ends at the other.
+bool restsFlat(const Pair& pair, const Polygon& a, const Polygon& b);
 
 /// One body as the detector sees it at an instant.
 struct View

@@ -154,7 +154,7 @@ void World::Engine::lookAtPair(int index, const Time& time)
   const Time end = std::min(a.arc.end, b.arc.end);
   const double horizon = end - time;
   const Snapshot &now_a = snapshot(pair.a, time), &now_b = snapshot(pair.b, time);
-  double span = pair.resting.flat() ? horizon : -1.0;
+  double span = restsFlat(pair, *a.shape, *b.shape) ? horizon : -1.0;
   if (pair.resting.empty())
     span = detector_.apart(a, now_a, b, now_b, horizon);
   pair.contact_due = false;
