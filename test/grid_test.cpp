@@ -68,6 +68,28 @@ TEST(Grid, ASingleBodyHasNobodyToMeet)
   EXPECT_TRUE(found.empty());
   EXPECT_TRUE(std::isinf(grid.keeps(0).high.x()));
 }
+
+// Three bodies make three pairs, wherever they are and whatever their sizes; none of them ever leaves its cell.
+TEST(Grid, AFewAreNearEachOther)
+{
+  Grid grid;
+  grid.configure({ 0.1, 1e6, HUGE_VAL, 3.0 }, 1e-6);
+  const Vec2 centres[] = { Vec2(-1e300, 1e300), Vec2(1e6, 0.0), Vec2::Zero(), Vec2(-2.0, -1e200) };
+  const std::vector<int> listed{ 0, 1, 3 };
+  for (int i : listed)
+    EXPECT_TRUE(grid.place(i, centres[i]));
+  for (int i : listed)
+  {
+    std::vector<int> found;
+    grid.neighbours(i, found);
+    found.push_back(i);
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, listed);
+    EXPECT_TRUE(std::isinf(grid.keeps(i).low.y()));
+    for (int j : listed)
+      EXPECT_TRUE(grid.near(i, j));
+  }
+}
 }  // namespace
 }  // namespace block_world
 

@@ -70,9 +70,12 @@ public:
   {
     if (isInfinite() || !(std::abs(span) < 1e15))
       return infinity();
-    const double whole = std::floor(span);
-    double fraction = fraction_ + (span - whole);
-    std::int64_t second = second_ + static_cast<std::int64_t>(whole);
+    // Its whole seconds, rounded down.
+    std::int64_t whole = static_cast<std::int64_t>(span);
+    if (static_cast<double>(whole) > span)
+      --whole;
+    double fraction = fraction_ + (span - static_cast<double>(whole));
+    std::int64_t second = second_ + whole;
     if (fraction >= 1.0)
     {
       fraction -= 1.0;

@@ -265,13 +265,19 @@ bool Complementarity::enter(int i)
   return true;
 }
 
+/// Memory for so many rows.
+void Complementarity::provide(std::size_t rows)
+{
+  room_.provide(rows, passive_, state_, l_, x_, residual_, row_, support_);
+}
+
 void Complementarity::start(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
 {
   a_ = &a;
   rows_ = &rows;
   b_ = &b;
   const std::size_t n = rows.size();
-  room_.provide(n, passive_, state_, l_, x_, residual_, row_, support_);
+  provide(n);
   l_.assign(n, 0.0);
   state_.assign(n, 0);
   passive_.clear();

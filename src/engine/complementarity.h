@@ -15,6 +15,10 @@ constexpr double kDependent = 1e-11, kTrusted = 1e-14;
 class Cholesky
 {
 public:
+  Cholesky()
+  {
+    provide(1);
+  }
   void clear()
   {
     truncate(0);
@@ -95,6 +99,10 @@ private:
 class Complementarity
 {
 public:
+  Complementarity()
+  {
+    provide(2);
+  }
   /// rows: indices into A; b: one value per row; guess: positions within rows that may carry load, from which the search starts. The result is read from
   /// value() and support().
   void solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& guess = {});
@@ -119,6 +127,7 @@ public:
   }
 
 private:
+  void provide(std::size_t rows);
   void start(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b);
   void search(double noise);
   double gradient(int i, double& magnitude) const;

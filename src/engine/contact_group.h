@@ -28,6 +28,12 @@ public:
   std::vector<Member> members;
   std::vector<Touch> touches;
 
+  ContactGroup()
+  {
+    members.reserve(4);
+    touches.reserve(4);
+    provide(4, 4);
+  }
   void clear()
   {
     members.clear();
@@ -73,6 +79,7 @@ private:
     double omega = 0.0;
   };
 
+  void provide(std::size_t rows, std::size_t bodies);
   double velocityOf(int i) const;
   void push(int i, double impulse);
   void scale(const ContactScales& scales);

@@ -10,6 +10,15 @@ namespace
 {
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+/// Orders of directions that turn by so much: the next one, angle^(n + 1) / (n + 1)!, is rounding. 20 for 1.5 radians.
+int directionOrders(double angle)
+{
+  int n = 1;
+  for (double next = 0.5 * angle * angle; next > 0.5 * kRounding && n < kOrder; next *= angle / (n + 1))
+    ++n;
+  return n;
+}
+
 /// Whether a body's angle changes along its arc.
 bool turns(const View& view)
 {
@@ -22,6 +31,19 @@ double backIn(double g, double v, double m)
   return m > 0.0 ? (v + std::sqrt(v * v + 2.0 * m * g)) / m : kNever;
 }
 }  // namespace
+
+bool restsFlat(const Pair& pair, const Polygon& a, const Polygon& b)
+{
+  const auto endsAt = [](const Polygon& shape, int face, int vertex) {
+    return vertex == face || vertex == (face + 1) % static_cast<int>(shape.vertices.size());
+  };
+  return pair.resting.anyTwo([&](const Resting& p, const Resting& q) {
+    if (p.face_of_a == q.face_of_a)
+      return p.face == q.face;
+    const Resting &on_a = p.face_of_a ? p : q, &on_b = p.face_of_a ? q : p;
+    return endsAt(a, on_a.face, on_b.vertex) && endsAt(b, on_b.face, on_a.vertex);
+  });
+}
 
 double Detector::apart(const Body& a, const Snapshot& now_a, const Body& b, const Snapshot& now_b, double horizon) const
 {
@@ -95,9 +117,34 @@ double Detector::within(const Body& body, const Snapshot& now, const Vec2& low, 
   return std::min(reach, span(reach));
 }
 
-/// Bound of |g''| over the horizon for every vertex of one body and every face of the other:
-/// g'' = n.(d'' - alpha perp d - 2 w perp d' - w^2 d), d from the face body's centre to the vertex.
-double Detector::curvature(const View& f, const View& v, double horizon) const
+/// Span for which a body of which a vertex rests on a face cannot turn about it by so much that another one reaches the shell; negative where one is
+/// there. Nearest to the face are the two next to it, as the body is convex. The angle by which each is above the face is no less than its sine.
+double Detector::upright(const Resting& one, const View& f, const View& v, double horizon) const
+{
+  const Polygon& shape = *v.body->shape;
+  const std::size_t count = shape.vertices.size(), k = one.vertex, former = (k + count - 1) % count, next = (k + 1) % count;
+  const Vec2 normal = v.frame.unrotate(f.frame.rotate(f.body->shape->faces[one.face].normal));
+  const double former_gap = normal.dot(shape.vertices[former] - shape.vertices[k]);
+  const double next_gap = normal.dot(shape.vertices[next] - shape.vertices[k]);
+  if (std::min(former_gap, next_gap) <= 0.5 * tolerance_)
+    return -1.0;
+  // Into the shell, not through it. What turns counter-clockwise lifts the next one.
+  const double down = (next_gap - 0.25 * tolerance_) / shape.faces[k].length;
+  const double up = (former_gap - 0.25 * tolerance_) / shape.faces[former].length;
+  const double spin = v.now->omega - f.now->omega, twist = v.now->alpha - f.now->alpha;
+  const double jerk = f.body->arc.angular_jerk + v.body->arc.angular_jerk;
+  const auto span = [&](double slack) {
+    return std::min({ horizon, firstZero(down, spin, twist - slack), firstZero(up, -spin, -twist - slack) });
+  };
+  if (jerk == 0.0)
+    return span(0.0);
+  const double reach = std::min(horizon, 2.0 * span(0.0));
+  return std::min(reach, span(jerk * reach));
+}
+
+/// Bound of |g''| over the horizon for every point of one body within a radius of its centre and every face of the other:
+/// g'' = n.(d'' - alpha perp d - 2 w perp d' - w^2 d), d from the face body's centre to the point.
+double Detector::curvature(const View& f, const View& v, double radius, double horizon) const
 {
   const double jerk = f.body->arc.jerk + v.body->arc.jerk;
   const double a = (v.now->acceleration - f.now->acceleration).norm() + (jerk > 0.0 ? jerk * horizon : 0.0);
@@ -109,7 +156,6 @@ double Detector::curvature(const View& f, const View& v, double horizon) const
   double w_v, alpha_v, w_f, alpha_f;
   spin(v, w_v, alpha_v);
   spin(f, w_f, alpha_f);
-  const double radius = v.body->shape->radius;
   double bound = a + (alpha_v + w_v * w_v) * radius;
   if (w_f > 0.0)
   {
@@ -120,12 +166,24 @@ double Detector::curvature(const View& f, const View& v, double horizon) const
   return bound;
 }
 
-void Detector::localSeries(const View& view, bool of_face)
+/// Span for which the circle of a body stays above a face of the other, given its gap and the rate of that; negative where it does not. From afar a
+/// body that spins fast is a circle.
+double Detector::roundAbove(double gap, double rate, const View& f, const View& v, double horizon) const
 {
-  Local& local = of_face ? face_local_ : vertex_local_;
+  if (gap <= 0.0)
+    return -1.0;
+  const double bound_now = curvature(f, v, 0.0, 0.0);
+  const double span = std::min(horizon, 2.0 * firstZero(gap, rate, -bound_now));
+  return std::min(span, firstZero(gap, rate, std::isinf(span) ? -bound_now : -curvature(f, v, 0.0, span)));
+}
+
+void Detector::localSeries(const View& view, int order, Local& local) const
+{
   const Body& body = *view.body;
+  if (local.body == &body && local.order >= order)
+    return;
   local.body = &body;
-  local.degree = body.arc.degree;
+  local.order = order;
   local.x.fill(0.0);
   local.y.fill(0.0);
   local.c.fill(0.0);
@@ -152,19 +210,36 @@ void Detector::localSeries(const View& view, bool of_face)
   local.c[0] = view.frame.cosine;
   local.s[0] = view.frame.sine;
   if (turns(view))
-    trigonometricSeries(angle, std::max(2, body.arc.degree), kOrder, local.c, local.s);
+    trigonometricSeries(angle, std::max(2, body.arc.degree), order, local.c, local.s);
 }
 
-/// The gap of one vertex within the shell, as a polynomial: g = N.(X_v + P - X_f) - o.
+/// Where nothing turns the gap of one vertex within the shell is a parabola, which from zero either opens by more than can be resolved or is guarded
+/// a level below.
+Detector::Certificate Detector::parabola(const Vec2& normal, const Open& open, const View& f, const View& v, double horizon) const
+{
+  const double bend = normal.dot(v.now->acceleration - f.now->acceleration);
+  const bool opens = open.gap > resolution_ || (open.rate > 0.0 && open.rate * open.rate > -2.0 * resolution_ * bend);
+  const double zero = firstZero(opens ? std::max(open.gap, 0.0) : guard_, open.rate, bend);
+  return zero < horizon ? Certificate{ zero, true } : Certificate{ horizon, false };
+}
+
+/// The same as a polynomial: g = N.(X_v + P - X_f) - o.
 Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, double gap, const View& f, const View& v, double horizon)
 {
-  if (face_local_.body != f.body)
-    localSeries(f, true);
-  if (vertex_local_.body != v.body)
-    localSeries(v, false);
-  // Where nothing turns the gap has the degree of the arcs.
-  const bool face_turns = turns(f), vertex_turns = turns(v);
-  const int order = face_turns || vertex_turns ? kOrder : std::max(face_local_.degree, vertex_local_.degree);
+  // Directions keep their digits up to a turn of 1.5 radians.
+  const double turn = std::max(std::abs(f.now->omega), std::abs(v.now->omega));
+  const double twist = std::max(std::abs(f.now->alpha), std::abs(v.now->alpha));
+  const double angular_jerk = std::max(f.body->arc.angular_jerk, v.body->arc.angular_jerk);
+  double span = horizon;
+  if (turn > 0.0)
+    span = std::min(span, 1.0 / turn);
+  if (twist > 0.0)
+    span = std::min(span, 1.0 / std::sqrt(twist));
+
+  const int order = std::max({ 2, f.body->arc.degree, v.body->arc.degree,
+                               directionOrders((turn + (twist / 2.0 + angular_jerk / 6.0 * span) * span) * span) });
+  localSeries(f, order, face_local_);
+  localSeries(v, order, vertex_local_);
   Series nx, ny, dx, dy, g{};
   for (int k = 0; k <= order; ++k)
   {
@@ -174,24 +249,9 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
     dy[k] = vertex_local_.y[k] - face_local_.y[k] + vertex_local_.s[k] * vertex.x() + vertex_local_.c[k] * vertex.y();
   }
   for (int k = 0; k <= order; ++k)
-    g[k] = face_turns ? cauchy(nx, dx, k) + cauchy(ny, dy, k) : nx[0] * dx[k] + ny[0] * dy[k];
+    g[k] = turns(f) ? cauchy(nx, dx, k) + cauchy(ny, dy, k) : nx[0] * dx[k] + ny[0] * dy[k];
   g[0] = gap;
 
-  // Directions keep their digits up to a turn of one radian.
-  const double turn = std::max(std::abs(f.now->omega), std::abs(v.now->omega));
-  const double twist = std::max(std::abs(f.now->alpha), std::abs(v.now->alpha));
-  double span = horizon;
-  if (turn > 0.0)
-    span = std::min(span, 1.0 / turn);
-  if (twist > 0.0)
-    span = std::min(span, 1.0 / std::sqrt(twist));
-  if (std::isinf(span))
-  {
-    // Nothing turns and nothing ends: a parabola, which from zero either opens by more than can be resolved or is guarded a level below.
-    const bool opens = gap > resolution_ || (g[1] > 0.0 && g[1] * g[1] > -4.0 * resolution_ * g[2]);
-    const double zero = firstZero(opens ? std::max(gap, 0.0) : guard_, g[1], 2.0 * g[2]);
-    return { zero, zero < kNever };
-  }
   if (gap > resolution_)
   {
     const double zero = firstBelow(g, order, span, 0.0);
@@ -220,29 +280,29 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
 {
   const Face& face = f.body->shape->faces[index];
   const Vec2 normal = f.frame.rotate(face.normal);
-  const Vec2 between = v.now->position - f.now->position;
-  const Vec2 relative = v.now->velocity - f.now->velocity;
+  const Vec2 normal_v = v.frame.unrotate(normal), between = v.now->position - f.now->position;
+  const double radius = v.body->shape->radius, spin = v.now->omega - f.now->omega;
+  // Of the centre over the face; of a vertex, its place along the normal comes to it.
+  const double height = normal.dot(between) - face.offset;
+  const double rise = normal.dot(v.now->velocity - f.now->velocity - f.now->omega * perp(between));
+  const double round = roundAbove(height - radius, rise, f, v, horizon);
+  if (round >= horizon)
+    return { horizon, false };
   const auto& vertices = v.body->shape->vertices;
   open_.clear();
   for (std::size_t k = 0; k < vertices.size(); ++k)
-  {
-    if (pair.resting.contains({ of_a, static_cast<unsigned>(index), static_cast<int>(k) }))
-      continue;
-    const Vec2 arm = v.frame.rotate(vertices[k]);
-    const Vec2 d = between + arm;
-    open_.push_back({ static_cast<int>(k), normal.dot(d) - face.offset,
-                      normal.dot(relative + v.now->omega * perp(arm) - f.now->omega * perp(d)) });
-  }
+    if (!pair.resting.contains({ of_a, static_cast<unsigned>(index), static_cast<int>(k) }))
+      open_.push_back({ static_cast<int>(k), height + normal_v.dot(vertices[k]), rise + spin * normal_v.dot(perp(vertices[k])) });
 
   // The bound of the curvature over twice the span that the bound at this instant suggests.
-  const double bound_now = curvature(f, v, 0.0);
+  const double bound_now = curvature(f, v, radius, 0.0);
   // Those in the shell that do not leave it at once have no need of a bound.
   double span = kNever;
   for (const Open& o : open_)
     if (o.gap > 0.5 * tolerance_ || (o.rate > 0.0 && o.rate * o.rate > 2.0 * bound_now * tolerance_))
       span = std::min(span, firstZero(std::max(o.gap, 0.5 * tolerance_), o.rate, -bound_now));
   span = std::min(horizon, 2.0 * std::max(span, std::sqrt(tolerance_ / (bound_now + 1e-300))));
-  const double bound = std::isinf(span) ? bound_now : curvature(f, v, span);
+  const double bound = std::isinf(span) ? bound_now : curvature(f, v, radius, span);
 
   Certificate certificate{ horizon, false };
   for (const Open& o : open_)
@@ -252,12 +312,18 @@ Detector::Certificate Detector::face(const Pair& pair, bool of_a, int index, con
       one.span = std::min(span, firstZero(o.gap - 0.25 * tolerance_, o.rate, -bound));  // into the shell, not through it
     else if (o.rate > 0.0 && o.rate * o.rate > 2.0 * bound * tolerance_)
       one.span = std::min(span, backIn(o.gap - 0.25 * tolerance_, o.rate, bound));
+    else if (!turns(f) && !turns(v))
+      one = parabola(normal, o, f, v, horizon);
     else
-      one = shell(face, vertices[o.vertex], o.gap, f, v, horizon);
+    {
+      // The bound also tells by when one that closes is closed.
+      const double closed = firstZero(std::max(o.gap, 0.0) + guard_, o.rate, bound);
+      one = shell(face, vertices[o.vertex], o.gap, f, v, closed < span ? std::min(horizon, 2.0 * closed) : horizon);
+    }
     if (one.span < certificate.span || (one.span == certificate.span && one.contact))
       certificate = one;
   }
-  return certificate;
+  return round > certificate.span ? Certificate{ round, false } : certificate;
 }
 
 /// Where nothing turns and both accelerate alike every gap changes at a constant rate: the bodies meet when the last of the closing gaps is
@@ -296,28 +362,43 @@ bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon,
   return true;
 }
 
+/// The faces of one body that may leave a gap of at least so much. The lowest vertex of the other is no higher than its centre.
+void Detector::findSides(const View& f, const View& v, bool of_a, double least)
+{
+  const Polygon &face_shape = *f.body->shape, &vertex_shape = *v.body->shape;
+  if (vertex_shape.vertices.empty())
+    return;
+  const Vec2 between = f.frame.unrotate(v.frame.position - f.frame.position);
+  for (std::size_t i = 0; i < face_shape.faces.size(); ++i)
+    if (!(face_shape.faces[i].normal.dot(between) - face_shape.faces[i].offset < least))
+      sides_.push_back({ of_a, static_cast<int>(i), faceGap(face_shape.faces[i], f.frame, vertex_shape, v.frame), 0.0 });
+}
+
 double Detector::certify(Pair& pair, const View& a, const View& b, const Time& time, double horizon)
 {
   time_ = time;
   pair.contact_due = false;
   face_local_.body = vertex_local_.body = nullptr;
+  if (!pair.resting.empty())
+  {
+    const Resting& one = pair.resting.first();
+    const double span = upright(one, one.face_of_a ? a : b, one.face_of_a ? b : a, horizon);
+    if (span > 0.0)
+      return span;
+  }
   const bool straight = !turns(a) && !turns(b) && a.now->acceleration == b.now->acceleration;
+  double needed = -kNever;
   if (pair.face >= 0 && !straight)
   {
     const View &f = pair.face_of_a ? a : b, &v = pair.face_of_a ? b : a;
     const double gap = faceGap(f.body->shape->faces[pair.face], f.frame, *v.body->shape, v.frame);
     if (gap > tolerance_ && gap > 0.5 * pair.face_gap)
       return face(pair, pair.face_of_a, pair.face, f, v, horizon).span;
+    needed = gap > 0.5 * tolerance_ ? gap : std::min(gap, 0.0) - 2.0 * guard_;
   }
   sides_.clear();
-  for (int side = 0; side < 2; ++side)
-  {
-    const View &f = side == 0 ? a : b, &v = side == 0 ? b : a;
-    const Polygon &face_shape = *f.body->shape, &vertex_shape = *v.body->shape;
-    if (!vertex_shape.vertices.empty())
-      for (std::size_t i = 0; i < face_shape.faces.size(); ++i)
-        sides_.push_back({ side == 0, static_cast<int>(i), faceGap(face_shape.faces[i], f.frame, vertex_shape, v.frame), 0.0 });
-  }
+  findSides(a, b, true, needed);
+  findSides(b, a, false, needed);
   const auto best = std::max_element(sides_.begin(), sides_.end(), [](const Side& p, const Side& q) { return p.gap < q.gap; });
   pair.face_of_a = best->of_a;
   pair.face = best->face;

@@ -39,6 +39,20 @@ public:
     if (free != ones_.end())
       *free = one;
   }
+  const Resting& first() const
+  {
+    return ones_.front();
+  }
+  /// Whether this holds for any two of them.
+  template <class Condition>
+  bool anyTwo(const Condition& condition) const
+  {
+    for (std::size_t i = 1; i < ones_.size() && ones_[i].vertex >= 0; ++i)
+      for (std::size_t j = 0; j < i; ++j)
+        if (condition(ones_[i], ones_[j]))
+          return true;
+    return false;
+  }
   bool contains(const Resting& one) const
   {
     return !empty() && std::find(ones_.begin(), ones_.end(), one) != ones_.end();
@@ -89,6 +103,9 @@ struct alignas(kCacheLine) Pair
 
 static_assert(sizeof(Pair) == kCacheLine, "a pair is a line of the cache");
 
+/// Whether the vertices that rest keep the bodies from turning against each other: two on one face, or one on a face of either that ends at the other.
+bool restsFlat(const Pair& pair, const Polygon& a, const Polygon& b);
+
 /// One body as the detector sees it at an instant.
 struct View
 {
@@ -111,6 +128,9 @@ public:
     tolerance_ = tolerance;
     resolution_ = resolution;
     guard_ = std::min(0.25 * tolerance, 16.0 * resolution);
+    // Of most polygons.
+    open_.reserve(8);
+    sides_.reserve(16);
   }
 
   /// m; a gap that is zero but for rounding is guarded this far below: above its rounding, far below the tolerance.
@@ -134,28 +154,33 @@ private:
     double span;
     bool contact;
   };
-  double curvature(const View& face_view, const View& vertex_view, double horizon) const;
-  Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
-  bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
-  Certificate shell(const Face& face, const Vec2& vertex, double gap, const View& face_view, const View& vertex_view, double horizon);
-  void localSeries(const View& view, bool of_face);
-
-  double tolerance_ = 1e-6, resolution_ = 1e-14;
-  double guard_ = 1e-13;
-  Time time_;
+  /// Series of a body about the instant of a look: of its centre, and of the cosine and sine of its angle.
   struct Local
   {
     const Body* body = nullptr;
-    int degree = 0;
+    int order = 0;
     Series x{}, y{}, c{}, s{};
   };
-  Local face_local_, vertex_local_;
   /// A vertex that nothing holds on the face.
   struct Open
   {
     int vertex;
     double gap, rate;
   };
+  double curvature(const View& face_view, const View& vertex_view, double radius, double horizon) const;
+  double roundAbove(double gap, double rate, const View& face_view, const View& vertex_view, double horizon) const;
+  Certificate face(const Pair& pair, bool of_a, int face, const View& face_view, const View& vertex_view, double horizon);
+  double upright(const Resting& one, const View& face_view, const View& vertex_view, double horizon) const;
+  void findSides(const View& face_view, const View& vertex_view, bool of_a, double least);
+  bool closing(Pair& pair, const View& a, const View& b, double horizon, Certificate& certificate);
+  Certificate parabola(const Vec2& normal, const Open& open, const View& face_view, const View& vertex_view, double horizon) const;
+  Certificate shell(const Face& face, const Vec2& vertex, double gap, const View& face_view, const View& vertex_view, double horizon);
+  void localSeries(const View& view, int order, Local& local) const;
+
+  double tolerance_ = 1e-6, resolution_ = 1e-14;
+  double guard_ = 1e-13;
+  Time time_;
+  Local face_local_, vertex_local_;
   std::vector<Open> open_;
   /// A face and the gap that it leaves.
   struct Side

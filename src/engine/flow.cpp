@@ -187,7 +187,8 @@ inline double Flow::opening(const RestWork& r) const
 /// The force coefficients of order n, which make the gaps' coefficients of order n + 2 vanish: A lambda_n = -(n+1)(n+2) g_{n+2}.
 ///
 /// Forces of several touches may balance and be a million times as large as what they balance, as in a jam. What rounding leaves open is closed once
-/// more, so that the accelerations keep the gaps to their own rounding, not to that of the forces.
+/// more, so that the accelerations keep the gaps to their own rounding, not to that of the forces. Later orders add to the start's and need that only
+/// where rows depend on each other nearly.
 void Flow::contactSolve(int n)
 {
   const std::size_t m = rest_work_.size();
@@ -196,7 +197,7 @@ void Flow::contactSolve(int n)
     turning_[i] = turning(rest_work_[i], n);
     rest_work_[i].force[n] = Vec2::Zero();
   }
-  for (int pass = m > 1 ? 2 : 1; pass > 0; --pass)
+  for (int pass = m > 1 && (n == 0 || factor_.doubtful()) ? 2 : 1; pass > 0; --pass)
   {
     for (std::size_t i = 0; i < m; ++i)
       forces_[i] = -turning_[i] - opening(rest_work_[i]);

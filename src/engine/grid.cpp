@@ -10,6 +10,12 @@ namespace
 /// Share of a cell's size by which a centre may leave it.
 constexpr double kMargin = 1.0 / 16.0;
 
+/// Up to so many bodies make no more pairs than they are: cells would spare nothing, and all are near each other.
+constexpr int kFew = 3;
+
+/// m; size of their cells, beyond any coordinate.
+constexpr double kEndless = 0x1p1000;
+
 /// Cells are counted as far as coordinates tell one from the next. Those at the end have no other end.
 constexpr std::int64_t kFarthest = std::int64_t{ 1 } << 53;
 
@@ -32,10 +38,11 @@ void Grid::configure(const std::vector<double>& radii, double shell)
   homes_.assign(radii.size(), Home());
   // Two circles in cells that are not neighbours are at least a cell less two margins apart.
   const auto needed = [shell](double radius) { return (2.0 * radius + shell) / (1.0 - 2.0 * kMargin); };
-  double finest = 0.0;
-  for (double radius : radii)
-    if (std::isfinite(radius))
-      finest = finest == 0.0 ? needed(radius) : std::min(finest, needed(radius));
+  few_ = std::count_if(radii.begin(), radii.end(), [](double radius) { return std::isfinite(radius); }) <= kFew;
+  double finest = few_ ? kEndless : HUGE_VAL;
+  if (!few_)
+    for (double radius : radii)
+      finest = std::min(finest, needed(radius));
   std::vector<int> shifts(radii.size(), 0), used;
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
@@ -50,17 +57,15 @@ void Grid::configure(const std::vector<double>& radii, double shell)
   for (int shift : used)
     levels_.push_back({ std::ldexp(finest, shift), shift });
 
-  int count = 0, used_bodies = 0;
+  int count = 0;
   for (std::size_t i = 0; i < radii.size(); ++i)
   {
     if (!std::isfinite(radii[i]))
       continue;
-    ++used_bodies;
     homes_[i].level = static_cast<int>(std::lower_bound(used.begin(), used.end(), shifts[i]) - used.begin());
     homes_[i].first = count;
     count += static_cast<int>(levels_.size()) - homes_[i].level;
   }
-  alone_ = used_bodies < 2;
   entries_.assign(count, Entry());
   Block empty;
   empty.heads.fill(-1);
@@ -152,7 +157,7 @@ void Grid::neighbours(int body, std::vector<int>& found) const
 
 Grid::Box Grid::keeps(int body) const
 {
-  if (alone_)
+  if (few_)
     return { Vec2::Constant(-HUGE_VAL), Vec2::Constant(HUGE_VAL) };
   const Cell& own = cell(body, homes_[body].level);
   const double size = levels_[homes_[body].level].size;

@@ -21,6 +21,12 @@ public:
   /// radii: m, of the bodies' circles, infinite for those that have no place in the grid; shell: m.
   void configure(const std::vector<double>& radii, double shell);
 
+  /// Whether no body ever leaves its cell.
+  bool endless() const
+  {
+    return few_;
+  }
+
   /// Lists the body where its centre is. Returns whether that changed its cell.
   bool place(int body, const Vec2& centre);
 
@@ -40,7 +46,7 @@ public:
   template <class A>
   void exchange(A& archive)
   {
-    archive(alone_, levels_, homes_, entries_, blocks_);
+    archive(few_, levels_, homes_, entries_, blocks_);
   }
 
 private:
@@ -115,7 +121,7 @@ private:
   void link(int entry);
   void unlink(int entry);
 
-  bool alone_ = false;  ///< a single body has nobody to be near
+  bool few_ = false;            ///< so few bodies that all are near each other
   std::vector<Level> levels_;  ///< those that bodies live on, finest first
   std::vector<Home> homes_;
   std::vector<Entry> entries_;

@@ -125,6 +125,11 @@ void World::Engine::lookAtCell(int body, const Time& time)
 void World::Engine::promiseCell(int body, const Time& time)
 {
   const Body& b = bodies[body];
+  if (grid_.endless())
+  {
+    promises_.set(cellSlot(body), Time::infinity());
+    return;
+  }
   const double horizon = b.arc.end - time;
   const Grid::Box box = grid_.keeps(body);
   const double span = detector_.within(b, snapshot(body, time), box.low, box.high, horizon);
@@ -149,7 +154,7 @@ void World::Engine::lookAtPair(int index, const Time& time)
   const Time end = std::min(a.arc.end, b.arc.end);
   const double horizon = end - time;
   const Snapshot &now_a = snapshot(pair.a, time), &now_b = snapshot(pair.b, time);
-  double span = -1.0;
+  double span = restsFlat(pair, *a.shape, *b.shape) ? horizon : -1.0;
   if (pair.resting.empty())
     span = detector_.apart(a, now_a, b, now_b, horizon);
   pair.contact_due = false;

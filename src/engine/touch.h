@@ -78,6 +78,11 @@ double contactGram(const Touch& p, const Touch& q, const std::vector<Member>& me
 class TouchFinder
 {
 public:
+  TouchFinder()
+  {
+    candidates_.reserve(8);
+    found_.reserve(8);
+  }
   /// tolerance: m, the contact shell; closed: m, below which a difference of gaps is rounding; still: m/s, the same of velocities; ties: whether
   /// touches on faces that tie in their velocities, too, are wanted.
   void find(const Body& body_a, const Member& a, const Body& body_b, const Member& b, double tolerance,

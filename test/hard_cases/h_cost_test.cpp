@@ -105,7 +105,8 @@ Scene makeHeap(int count)
 }
 
 // H3: a heap settles: never stuck, no overlap, no energy made. Without friction it does not freeze, but its centre
-// comes down to rest.
+// comes down to rest: over the last second the floor carries the weight. At one instant it need not, as a block may just
+// slide down.
 void expectHeapSettles(int count, double seconds)
 {
   const Scene scene = makeHeap(count);
@@ -114,16 +115,23 @@ void expectHeapSettles(int count, double seconds)
     weight += 9.8 * block.mass;
   World world(scene);
   const double start = world.energy().total;
-  expectEnergyNeverGrows(world, seconds, false, 20);
+  expectEnergyNeverGrows(world, seconds - 1.0, false, 20);
+  constexpr int kReadings = 20;
+  double carried = 0.0;
+  for (int i = 1; i <= kReadings; ++i)
+  {
+    run(world, seconds - 1.0 + static_cast<double>(i) / kReadings);
+    carried += restingForce(world, "wall_bottom") / kReadings;
+  }
   EXPECT_EQ(world.now(), Time::fromSeconds(seconds));
   EXPECT_LT(world.energy().translational + world.energy().rotational, 0.02 * start);
-  EXPECT_NEAR(restingForce(world, "wall_bottom"), weight, 0.2 * weight);
+  EXPECT_NEAR(carried, weight, 0.1 * weight);
   expectExact(world, 1e-12 * start);
 }
 
 TEST(Cost, HeapOfTwelve)
 {
-  expectHeapSettles(12, 10.0);
+  expectHeapSettles(12, 12.0);
 }
 
 TEST(Cost, HeapOfTwentyFour)

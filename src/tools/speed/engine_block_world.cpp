@@ -20,9 +20,12 @@ public:
     // Sixtieths of a second are no whole nanoseconds, which would cost 3e-10 s.
     for (int i = 0; i < samples_; ++i)
     {
-      ++sample_;
-      world_.advance(Time::fromNanoseconds(sample_ / rate_ * 1000000000) +
-                     static_cast<double>(sample_ % rate_) / static_cast<double>(rate_));
+      if (++sample_ == rate_)
+      {
+        sample_ = 0;
+        second_ = second_ + 1.0;
+      }
+      world_.advance(second_ + static_cast<double>(sample_) / rate_);
     }
   }
 
@@ -37,7 +40,8 @@ public:
   }
 
 private:
-  std::int64_t samples_, rate_, sample_ = 0;
+  int samples_, rate_, sample_ = 0;  ///< a frame, a second, since the last whole second
+  Time second_;
   World world_;
 };
 
