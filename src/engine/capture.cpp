@@ -82,28 +82,36 @@ void ContactGroup::plannedSpeeds()
                              members[m].inverse_mass / members[m].inverse_inertia * changes_[m].omega * changes_[m].omega);
 }
 
-/// Position of the pressed touch that can least be held, -1 if all can.
+/// Takes those pressed touches that can least be held out of the candidates; false if all can be held.
 ///
 /// Left alone the touch would hop, or come and hop. Its force f_i needs the time |j_i| / f_i to give the impulse j_i that brings it to rest, so that
 /// the hop lasts twice that and moves its bodies, whose speeds the plan changes by u, by u |j_i| / (2 f_i). What moves nothing by more than four
-/// tolerances is replaced by its limit, rest. For a single touch, or flat on flat: w^2 <= 8 delta a.
-int ContactGroup::leastHeld()
+/// tolerances is replaced by its limit, rest. For a single touch, or flat on flat: w^2 <= 8 delta a. A touch that is left out lets others rest, of its
+/// own bodies first: on each body only the worst goes.
+bool ContactGroup::leaveOut()
 {
   plannedSpeeds();
-  int least = -1;
-  double most = 1.0;
+  over_.clear();
+  worst_.assign(members.size(), 1.0);
   for (std::size_t k = 0; k < pressed_.size(); ++k)
   {
     const Touch& t = touches[pressed_[k]];
     const double speed = std::max(speeds_[t.member_a], speeds_[t.member_b]);
-    const double over = std::abs(holds_[k]) * speed / (8.0 * depth_[pressed_[k]] * t.force);
-    if (speed > noise_ && over > most)
-    {
-      most = over;
-      least = static_cast<int>(k);
-    }
+    over_.push_back(speed > noise_ ? std::abs(holds_[k]) * speed / (8.0 * depth_[pressed_[k]] * t.force) : 0.0);
+    for (int member : { t.member_a, t.member_b })
+      if (members[member].inverse_mass > 0.0)
+        worst_[member] = std::max(worst_[member], over_.back());
   }
-  return least;
+  bool all = true;
+  for (std::size_t k = 0; k < pressed_.size(); ++k)
+  {
+    const Touch& t = touches[pressed_[k]];
+    if (over_[k] <= 1.0 || over_[k] < worst_[t.member_a] || over_[k] < worst_[t.member_b])
+      continue;
+    candidates_.erase(std::find(candidates_.begin(), candidates_.end(), pressed_[k]));
+    all = false;
+  }
+  return !all;
 }
 
 /// Which closed touches come to rest together, and what it takes: impulses at those (holds_ at pressed_), pushes at the others that would approach
@@ -123,10 +131,8 @@ void ContactGroup::planCapture()
     solveRest(candidates_);
     factorPressed();
     solvePlan();
-    const int least = leastHeld();
-    if (least < 0)
+    if (!leaveOut())
       return;
-    candidates_.erase(std::find(candidates_.begin(), candidates_.end(), pressed_[least]));
   }
 }
 

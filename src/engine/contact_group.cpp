@@ -48,8 +48,8 @@ void ContactGroup::prepare()
 {
   const int n = static_cast<int>(touches.size());
   rows_room_.provide(touches.size(), all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_, held_,
-                     extended_rows_, depth_, rest_speed_, holds_, pushes_, b_, row_, solution_, impulses_, minus_one_, meets_);
-  members_room_.provide(members.size(), sizes_, changes_, rebound_, velocities_, start_, speeds_);
+                     extended_rows_, depth_, rest_speed_, holds_, pushes_, over_, b_, row_, solution_, impulses_, minus_one_, meets_);
+  members_room_.provide(members.size(), sizes_, changes_, rebound_, velocities_, start_, speeds_, worst_);
   gram_.resize(n);
   sizes_.resize(members.size());
   for (int i = 0; i < n; ++i)

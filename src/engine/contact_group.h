@@ -93,7 +93,7 @@ private:
   void factorPressed();
   void solvePlan();
   void plannedSpeeds();
-  int leastHeld();
+  bool leaveOut();
   void carryOut();
   void capture();
 
@@ -120,6 +120,8 @@ private:
   std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
   std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest
   std::vector<double> pushes_;      ///< N s, impulses that keep the others from approaching then
+  std::vector<double> over_;        ///< by pressed touch: how far its hop would go, against what may be left out
+  std::vector<double> worst_;       ///< by member: the largest of these
   std::vector<double> b_, row_, solution_, impulses_;
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
