@@ -47,8 +47,8 @@ void ContactGroup::clean()
 void ContactGroup::prepare()
 {
   const int n = static_cast<int>(touches.size());
-  rows_room_.provide(touches.size(), all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_, held_,
-                     extended_rows_, depth_, rest_speed_, holds_, pushes_, over_, b_, row_, solution_, impulses_, minus_one_, meets_);
+  rows_room_.provide(touches.size(), all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, held_, extended_rows_,
+                     rates_, depth_, rest_speed_, over_, accelerations_, row_, solution_, impulses_, minus_one_, meets_, presses_);
   members_room_.provide(members.size(), sizes_, changes_, rebound_, velocities_, start_, speeds_, worst_);
   gram_.resize(n);
   sizes_.resize(members.size());
@@ -109,16 +109,17 @@ bool ContactGroup::anyElastic(const std::vector<int>& rows) const
 /// With c = M^-1 J'l the velocities v end at v + c inelastically, at v + c + z with z = M^-1 J'E l elastically, z not longer than keeps the energy.
 void ContactGroup::reflect(const std::vector<int>& rows)
 {
-  b_.clear();
-  guess_.clear();
+  solver_.begin(gram_);
   for (int i : rows)
   {
-    guess_.push_back(static_cast<int>(b_.size()));
-    b_.push_back(velocityOf(i));
+    rates_[i] = velocityOf(i);
+    solver_.suppose(i);
   }
-  solver_.solve(gram_, rows, b_, guess_);
+  solver_.solve(rows, rates_);
   solver_.refine();  // elastic impacts keep their energy to rounding, however many there are
-  impulses_ = solver_.value();
+  impulses_.clear();
+  for (int i : rows)
+    impulses_.push_back(solver_.value()[i]);
   const double rebound = shareOfRebound(rows);
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
@@ -127,6 +128,9 @@ void ContactGroup::reflect(const std::vector<int>& rows)
       continue;
     touches[rows[k]].impulse += impulse;
     push(rows[k], impulse);
+    const double* changes = gram_.row(rows[k]);
+    for (std::size_t i = 0; i < rates_.size(); ++i)
+      rates_[i] += impulse * changes[i];
   }
 }
 
@@ -149,14 +153,12 @@ double ContactGroup::shareOfRebound(const std::vector<int>& rows)
 /// Inelastic end: no touch approaches any more, min |dv| in the mass metric with w >= 0.
 void ContactGroup::stop()
 {
-  b_.clear();
-  for (int i : all_)
-    b_.push_back(velocityOf(i));
-  solver_.solve(gram_, all_, b_);
-  stopped_.clear();
-  for (int k : solver_.support())
-    stopped_.push_back(all_[k]);
+  measureRates();
+  solver_.begin(gram_);
+  solver_.solve(all_, rates_);
+  stopped_ = solver_.support();
   bringToRestWithNeighbours(stopped_);
+  measureRates();
 }
 
 /// Gordan's alternative: no velocity opens all these touches exactly if some l >= 0, sum l = 1, has l'A l = 0. With c = (1, ..., 1),
@@ -176,7 +178,8 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
     for (int j = 0; j < n; ++j)
       extended_(i, j) = gram_(rows[i], rows[j]) / size + 1.0;
   }
-  solver_.solve(extended_, extended_rows_, minus_one_);
+  solver_.begin(extended_);
+  solver_.solve(extended_rows_, minus_one_);
   double sum = 0.0;
   for (double l : solver_.value())
     sum += l;
@@ -187,9 +190,25 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
 bool ContactGroup::allLeave() const
 {
   for (std::size_t i = 0; i < touches.size(); ++i)
-    if (touches[i].gap <= closed_ && velocityOf(static_cast<int>(i)) <= rest_speed_[i])
+    if (touches[i].gap <= closed_ && rates_[i] <= rest_speed_[i])
       return false;
   return true;
+}
+
+/// The normal velocities, without what rounding has left in them of stage after stage.
+void ContactGroup::measureRates()
+{
+  rates_.resize(touches.size());
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    rates_[i] = velocityOf(static_cast<int>(i));
+}
+
+void ContactGroup::takeApproaching()
+{
+  approaching_.clear();
+  for (int i : all_)
+    if (rates_[i] < -rest_speed_[i])
+      approaching_.push_back(i);
 }
 
 /// What the last plan pushes and still approaches, however slowly: it bounces before another plan is made.
@@ -197,7 +216,7 @@ void ContactGroup::takeBouncing()
 {
   approaching_.clear();
   for (int i : bouncing_)
-    if (velocityOf(i) < -noise_)
+    if (rates_[i] < -noise_)
       approaching_.push_back(i);
 }
 
@@ -218,6 +237,9 @@ double ContactGroup::collide(const ContactScales& scales)
       all_.push_back(i);
 
   start_ = velocities();
+  measureRates();
+  pressing_.begin(gram_);
+  planned_.begin(gram_);
   bouncing_.clear();
   bool planned = false;
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends
@@ -227,10 +249,12 @@ double ContactGroup::collide(const ContactScales& scales)
   {
     if (stage == 50 && isLocked(all_))
       break;
-    approaching_.clear();
-    for (int i : all_)
-      if (velocityOf(i) < -rest_speed_[i])
-        approaching_.push_back(i);
+    takeApproaching();
+    if (approaching_.empty())
+    {
+      measureRates();
+      takeApproaching();
+    }
     if (approaching_.empty() && allLeave())
     {
       clean();
@@ -245,9 +269,9 @@ double ContactGroup::collide(const ContactScales& scales)
       {
         planCapture();
         bouncing_.clear();
-        for (std::size_t k = 0; k < others_.size(); ++k)
-          if (pushes_[k] > 0.0)
-            bouncing_.push_back(others_[k]);
+        for (int i : others_)
+          if (planned_.value()[i] > 0.0)
+            bouncing_.push_back(i);
         takeBouncing();
         planned = !anyElastic(approaching_);
         if (planned)
