@@ -198,35 +198,24 @@ bool Complementarity::enter(int i)
   return true;
 }
 
-/// A held row becomes passive. False if it depends on the passive ones.
-bool Complementarity::hold(int row)
+/// A held row becomes passive. Where it depends on the passive ones, that of the others leaves on which it depends most.
+void Complementarity::hold(int row)
 {
-  if (state_[row] < State::Passive)
+  if (!factorRow(static_cast<int>(passive_.size()), row))
   {
-    if (!factorRow(static_cast<int>(passive_.size()), row))
-      return false;
-    passive_.push_back(row);
+    x_.assign(row_.begin(), row_.end() - 1);
+    factor_.solve(x_.data());
+    int most = -1;
+    for (std::size_t k = 0; k < passive_.size(); ++k)
+      if (state_[passive_[k]] != State::Held && (most < 0 || std::abs(x_[k]) > std::abs(x_[most])))
+        most = static_cast<int>(k);
+    if (most >= 0)
+      leave(most, State::Zero);
+    if (!factorRow(static_cast<int>(passive_.size()), row, kTrusted))
+      return;
   }
+  passive_.push_back(row);
   state_[row] = State::Held;
-  return true;
-}
-
-/// The held rows become passive first, the others that are after them where they do not depend on these.
-void Complementarity::holdFirst(const std::vector<int>& held)
-{
-  before_ = passive_;
-  passive_ = held;
-  for (int i : held)
-    state_[i] = State::Held;
-  refactor(0);
-  for (int i : before_)
-  {
-    if (state_[i] != State::Passive)
-      continue;
-    l_[i] = 0.0;
-    state_[i] = State::Zero;
-    suppose(i);
-  }
 }
 
 /// Makes the rows the problem and the held ones passive.
@@ -239,8 +228,12 @@ void Complementarity::choose(const std::vector<int>& rows, const std::vector<int
   for (int k = static_cast<int>(passive_.size()) - 1; k >= 0; --k)
     if (state_[passive_[k]] != State::Passive)
       leave(k, State::Out);
-  if (!std::all_of(held.begin(), held.end(), [this](int i) { return hold(i); }))
-    holdFirst(held);
+  for (int i : held)
+    if (state_[i] == State::Passive)
+      state_[i] = State::Held;
+  for (int i : held)
+    if (state_[i] != State::Held)
+      hold(i);
 }
 
 /// The minimum over the passive rows, without those that would carry a negative load there.

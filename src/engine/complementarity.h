@@ -50,8 +50,7 @@ private:
   };
 
   void choose(const std::vector<int>& rows, const std::vector<int>& held);
-  bool hold(int row);
-  void holdFirst(const std::vector<int>& held);
+  void hold(int row);
   void takePositive();
   void search(const std::vector<int>& rows, double noise);
   double gradient(int i, double& magnitude) const;

@@ -49,7 +49,7 @@ void ContactGroup::prepare()
   const int n = static_cast<int>(touches.size());
   rows_room_.provide(touches.size(), all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, held_, extended_rows_,
                      rates_, depth_, rest_speed_, over_, accelerations_, row_, solution_, impulses_, minus_one_, meets_, presses_);
-  members_room_.provide(members.size(), sizes_, changes_, rebound_, velocities_, start_, speeds_, worst_);
+  members_room_.provide(members.size(), sizes_, changes_, velocities_, start_, speeds_, worst_);
   gram_.resize(n);
   sizes_.resize(members.size());
   for (int i = 0; i < n; ++i)
@@ -134,19 +134,27 @@ void ContactGroup::reflect(const std::vector<int>& rows)
   }
 }
 
-/// s <= 1 with |v + c + s z| <= |v| in the mass metric; 1 but where different elasticities meet.
+/// s <= 1 with |v + c + s z| <= |v| in the mass metric; 1 but where different elasticities meet. There c.M z = l'A E l, v.M z = w'E l.
 double ContactGroup::shareOfRebound(const std::vector<int>& rows)
 {
   const double e = touches[rows.front()].elasticity;
   if (std::all_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity == e; }))
     return 1.0;
-  row_.clear();
+  double square = 0.0, given = 0.0, along = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k)
-    row_.push_back(touches[rows[k]].elasticity * impulses_[k]);
-  sumChanges(rows, impulses_, changes_);
-  sumChanges(rows, row_, rebound_);
-  const double square = product(rebound_, rebound_), given = product(changes_, changes_),
-               along = product(velocities(), rebound_) + product(changes_, rebound_);
+  {
+    double change = 0.0, back = 0.0;
+    for (std::size_t j = 0; j < rows.size(); ++j)
+    {
+      const double term = gram_(rows[k], rows[j]) * impulses_[j];
+      change += term;
+      back += touches[rows[j]].elasticity * term;
+    }
+    const double z = touches[rows[k]].elasticity * impulses_[k];
+    square += z * back;
+    given += impulses_[k] * change;
+    along += z * (rates_[rows[k]] + change);
+  }
   return square > 0.0 ? std::min(1.0, (std::sqrt(along * along + square * given) - along) / square) : 1.0;
 }
 
@@ -203,18 +211,16 @@ void ContactGroup::measureRates()
     rates_[i] = velocityOf(static_cast<int>(i));
 }
 
+/// What approaches faster than could come to rest; else of what the last plan pushes whatever approaches still, however slowly: that bounces before
+/// another plan is made.
 void ContactGroup::takeApproaching()
 {
   approaching_.clear();
   for (int i : all_)
     if (rates_[i] < -rest_speed_[i])
       approaching_.push_back(i);
-}
-
-/// What the last plan pushes and still approaches, however slowly: it bounces before another plan is made.
-void ContactGroup::takeBouncing()
-{
-  approaching_.clear();
+  if (!approaching_.empty())
+    bouncing_.clear();
   for (int i : bouncing_)
     if (rates_[i] < -noise_)
       approaching_.push_back(i);
@@ -260,23 +266,18 @@ double ContactGroup::collide(const ContactScales& scales)
       clean();
       return lossSince(start_);
     }
-    if (!approaching_.empty())
-      bouncing_.clear();
-    else
+    const bool slow = approaching_.empty() || !bouncing_.empty();
+    if (slow && !anyElastic(approaching_))
     {
-      takeBouncing();
-      if (!anyElastic(approaching_))
-      {
-        planCapture();
-        bouncing_.clear();
-        for (int i : others_)
-          if (planned_.value()[i] > 0.0)
-            bouncing_.push_back(i);
-        takeBouncing();
-        planned = !anyElastic(approaching_);
-        if (planned)
-          break;
-      }
+      planCapture();
+      bouncing_.clear();
+      for (int i : others_)
+        if (planned_.value()[i] > 0.0)
+          bouncing_.push_back(i);
+      takeApproaching();
+      planned = !anyElastic(approaching_);
+      if (planned)
+        break;
     }
     if (anyElastic(approaching_))
       reflect(approaching_);

@@ -84,7 +84,6 @@ private:
   bool allLeave() const;
   void measureRates();
   void takeApproaching();
-  void takeBouncing();
   bool anyElastic(const std::vector<int>& rows) const;
   bool isLocked(const std::vector<int>& rows);
 
@@ -102,7 +101,6 @@ private:
   // standstill.cpp
   void independent(const std::vector<int>& rows, double share);
   void sumChanges(const std::vector<int>& rows, const std::vector<double>& impulses, std::vector<Twist>& changes) const;
-  double product(const std::vector<Twist>& p, const std::vector<Twist>& q) const;
   const std::vector<Twist>& velocities();
   double lossSince(const std::vector<Twist>& start);
   bool atRest(const std::vector<int>& rows) const;
@@ -135,7 +133,7 @@ private:
     double x = 0.0, y = 0.0, omega = 0.0;
   };
   std::vector<Size> sizes_;
-  std::vector<Twist> changes_, rebound_, velocities_, start_;  ///< by member
+  std::vector<Twist> changes_, velocities_, start_;  ///< by member
   std::vector<double> speeds_;                         ///< m/s, by member: what the plan changes
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
 
