@@ -152,7 +152,7 @@ void Detector::localSeries(const View& view, bool of_face)
   local.c[0] = view.frame.cosine;
   local.s[0] = view.frame.sine;
   if (turns(view))
-    trigonometricSeries(angle, std::max(2, body.arc.degree), kOrder, local.c, local.s);
+    trigonometricSeries(angle, std::max(2, body.arc.degree), order_, local.c, local.s);
 }
 
 /// The gap of one vertex within the shell, as a polynomial: g = N.(X_v + P - X_f) - o.
@@ -164,7 +164,7 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
     localSeries(v, false);
   // Where nothing turns the gap has the degree of the arcs.
   const bool face_turns = turns(f), vertex_turns = turns(v);
-  const int order = face_turns || vertex_turns ? kOrder : std::max(face_local_.degree, vertex_local_.degree);
+  const int order = face_turns || vertex_turns ? order_ : std::max(face_local_.degree, vertex_local_.degree);
   Series nx, ny, dx, dy, g{};
   for (int k = 0; k <= order; ++k)
   {
@@ -177,14 +177,15 @@ Detector::Certificate Detector::shell(const Face& face, const Vec2& vertex, doub
     g[k] = face_turns ? cauchy(nx, dx, k) + cauchy(ny, dy, k) : nx[0] * dx[k] + ny[0] * dy[k];
   g[0] = gap;
 
-  // Directions keep their digits up to a turn of one radian.
+  // Directions keep their digits up to a turn of one radian, of a quarter with half the orders: turn^(order + 1) / (order + 1)!.
+  const double most = order_ == kOrder ? 1.0 : 0.25;
   const double turn = std::max(std::abs(f.now->omega), std::abs(v.now->omega));
   const double twist = std::max(std::abs(f.now->alpha), std::abs(v.now->alpha));
   double span = horizon;
   if (turn > 0.0)
-    span = std::min(span, 1.0 / turn);
+    span = std::min(span, most / turn);
   if (twist > 0.0)
-    span = std::min(span, 1.0 / std::sqrt(twist));
+    span = std::min(span, std::sqrt(most / twist));
   if (std::isinf(span))
   {
     // Nothing turns and nothing ends: a parabola, which from zero either opens by more than can be resolved or is guarded a level below.
@@ -299,6 +300,8 @@ bool Detector::closing(Pair& pair, const View& a, const View& b, double horizon,
 double Detector::certify(Pair& pair, const View& a, const View& b, const Time& time, double horizon)
 {
   time_ = time;
+  const int degree = std::max(a.body->arc.degree, b.body->arc.degree);
+  order_ = degree > 2 && degree <= kLowOrder ? kLowOrder : kOrder;
   pair.contact_due = false;
   face_local_.body = vertex_local_.body = nullptr;
   const bool straight = !turns(a) && !turns(b) && a.now->acceleration == b.now->acceleration;

@@ -143,6 +143,7 @@ private:
   double tolerance_ = 1e-6, resolution_ = 1e-14;
   double guard_ = 1e-13;
   Time time_;
+  int order_ = kOrder;  ///< of the gaps where something turns: as of the arcs
   struct Local
   {
     const Body* body = nullptr;
