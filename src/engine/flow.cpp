@@ -166,12 +166,15 @@ inline double Flow::gapAcceleration(const RestWork& r, int n) const
   return r.normal[0].dot(apart) + turning;
 }
 
-/// Solves A lambda = forces_, with one step of iterative refinement.
-void Flow::solveForces()
+/// Solves A lambda = forces_. The last digits count at order 0, the forces at the start, of which higher orders are small shares, or else where touches
+/// depend on each other nearly: there with one step of iterative refinement.
+void Flow::solveForces(int n)
 {
   const int m = factor_.size();
   residual_ = forces_;
   factor_.solve(forces_.data());
+  if (n > 0 && !factor_.doubtful())
+    return;
   for (int i = 0; i < m; ++i)
     for (int j = 0; j < m; ++j)
       residual_[i] -= gram_(i, j) * forces_[j];
@@ -189,7 +192,7 @@ void Flow::contactSolve(int n)
   if (m == 1)
     forces_[0] /= gram_(0, 0);
   else
-    solveForces();
+    solveForces(n);
   for (std::size_t i = 0; i < m; ++i)
   {
     RestWork& r = rest_work_[i];

@@ -110,7 +110,7 @@ private:
   void push(const RestWork& rest, const SizedSum& force, const SizedSum& torque);
   void contactKnown(int n);
   double gapAcceleration(const RestWork& rest, int n) const;
-  void solveForces();
+  void solveForces(int n);
   void contactSolve(int n);
   bool store(int n);
   bool endsEarly() const;
