@@ -187,6 +187,8 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
       extended_(i, j) = gram_(rows[i], rows[j]) / size + 1.0;
   }
   solver_.begin(extended_);
+  for (int i : extended_rows_)
+    solver_.suppose(i);
   solver_.solve(extended_rows_, minus_one_);
   double sum = 0.0;
   for (double l : solver_.value())
@@ -244,8 +246,7 @@ double ContactGroup::collide(const ContactScales& scales)
 
   start_ = velocities();
   measureRates();
-  pressing_.begin(gram_);
-  planned_.begin(gram_);
+  first_plan_ = true;
   bouncing_.clear();
   bool planned = false;
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends

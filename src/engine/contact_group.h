@@ -135,6 +135,7 @@ private:
   std::vector<Size> sizes_;
   std::vector<Twist> changes_, velocities_, start_;  ///< by member
   std::vector<double> speeds_;                         ///< m/s, by member: what the plan changes
+  bool first_plan_ = true;  ///< of this collision: no forces and impulses are known to start from
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
 
   /// Workspace of isLocked.
