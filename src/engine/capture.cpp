@@ -71,8 +71,8 @@ void ContactGroup::plannedSpeeds()
 ///
 /// Left alone the touch would hop, or come and hop. Its force f_i needs the time |j_i| / f_i to give the impulse j_i that brings it to rest, so that
 /// the hop lasts twice that and moves its bodies, whose speeds the plan changes by u, by u |j_i| / (2 f_i). What moves nothing by more than four
-/// tolerances is replaced by its limit, rest. For a single touch, or flat on flat: w^2 <= 8 delta a. A touch that is left out lets others rest, of its
-/// own bodies first: on each body only the worst goes.
+/// tolerances is replaced by its limit, rest. For a single touch, or flat on flat: w^2 <= 8 delta a. A touch that is left out lets others rest, those of
+/// its own bodies first: only what is the worst on both of them goes.
 bool ContactGroup::leaveOut()
 {
   plannedSpeeds();

@@ -47,8 +47,8 @@ void ContactGroup::clean()
 void ContactGroup::prepare()
 {
   const int n = static_cast<int>(touches.size());
-  rows_room_.provide(touches.size(), all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, held_, extended_rows_,
-                     rates_, depth_, rest_speed_, over_, accelerations_, row_, solution_, impulses_, minus_one_, meets_, presses_);
+  rows_room_.provide(touches.size(), all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, held_,
+                     extended_rows_, rates_, depth_, rest_speed_, over_, accelerations_, row_, solution_, impulses_, minus_one_, meets_, presses_);
   members_room_.provide(members.size(), sizes_, changes_, velocities_, start_, speeds_, worst_);
   gram_.resize(n);
   sizes_.resize(members.size());

@@ -166,8 +166,8 @@ inline double Flow::gapAcceleration(const RestWork& r, int n) const
   return r.normal[0].dot(apart) + turning;
 }
 
-/// Solves A lambda = forces_. The last digits count at order 0, the forces at the start, of which higher orders are small shares, or else where touches
-/// depend on each other nearly: there with one step of iterative refinement.
+/// Solves A lambda = forces_, with one step of iterative refinement at order 0, the forces at the start, of which higher orders are small shares, and
+/// where touches depend on each other nearly.
 void Flow::solveForces(int n)
 {
   const int m = factor_.size();
