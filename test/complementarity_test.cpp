@@ -145,6 +145,43 @@ TEST(Cholesky, RefusesADependentRowAndGoesOn)
   EXPECT_DOUBLE_EQ(y[1], 2.0);
 }
 
+TEST(Cholesky, RemovesRows)
+{
+  Random random(7);
+  for (int i = 0; i < 300; ++i)
+  {
+    const int n = 1 + random.below(20);
+    // Bodies in a row: a touch shares one with the next few only, so that the factor has zeros.
+    Rows rows(n, std::vector<double>(n + 3, 0.0));
+    for (int k = 0; k < n; ++k)
+    {
+      const int width = 1 + random.below(4);
+      for (int c = 0; c < width; ++c)
+        rows[k][k + c] = random.in(-1.0, 1.0) + (c == 0 ? 2.0 : 0.0);
+    }
+    const SymmetricMatrix a = gramOf(rows);
+    Cholesky factor;
+    std::vector<double> row;
+    for (int k = 0; k < n; ++k)
+    {
+      row.assign(a.row(k), a.row(k) + k + 1);
+      ASSERT_TRUE(factor.append(row.data()));
+    }
+    std::vector<int> left = all(n);
+    while (!left.empty())
+    {
+      const int which = random.below(static_cast<int>(left.size()));
+      factor.remove(which);
+      left.erase(left.begin() + which);
+      ASSERT_EQ(factor.size(), static_cast<int>(left.size()));
+      std::vector<double> x = randomRows(random, 1, static_cast<int>(left.size())).front(), b = product(a, left, x);
+      factor.solve(b.data());
+      for (std::size_t k = 0; k < left.size(); ++k)
+        EXPECT_NEAR(b[k], x[k], 1e-9) << i;  // eps times a condition number below 1e5
+    }
+  }
+}
+
 TEST(Complementarity, ByHand)
 {
   const struct
@@ -167,11 +204,14 @@ TEST(Complementarity, ByHand)
     a(0, 1) = a(1, 0) = c.a01;
     a(1, 1) = c.a11;
     const std::vector<int> rows = all(2);
-    solver.solve(a, rows, { c.b0, c.b1 });
+    solver.begin(a);
+    solver.solve(rows, { c.b0, c.b1 });
     EXPECT_DOUBLE_EQ(solver.value()[0], c.l0);
     EXPECT_DOUBLE_EQ(solver.value()[1], c.l1);
   }
-  solver.solve(SymmetricMatrix(), {}, {});
+  const SymmetricMatrix none;
+  solver.begin(none);
+  solver.solve({}, {});
   EXPECT_TRUE(solver.value().empty());
   EXPECT_TRUE(solver.support().empty());
 }
@@ -191,7 +231,8 @@ TEST(Complementarity, RandomOfAnyRank)
     for (const auto& row : rows)
       b.push_back(dot(row, u) + (random.below(3) == 0 ? random.in(0.0, 1.0) : 0.0));
     const std::vector<int> names = all(count);
-    solver.solve(a, names, b);
+    solver.begin(a);
+    solver.solve(names, b);
     SCOPED_TRACE(i);
     expectMinimum(a, names, b, solver);
   }
@@ -205,13 +246,77 @@ TEST(Complementarity, RedundantRowsShareOneLoad)
     const std::vector<int> names = all(copies);
     const std::vector<double> b(copies, -50.0);
     Complementarity solver;
-    solver.solve(a, names, b);
+    solver.begin(a);
+    solver.solve(names, b);
     expectMinimum(a, names, b, solver);
     EXPECT_EQ(solver.support().size(), 1u);
     double sum = 0.0;
     for (double l : solver.value())
       sum += l;
     EXPECT_DOUBLE_EQ(sum, 2.0);  // 25 l = 50
+  }
+}
+
+/// With (A l + b)_i = 0 at the held rows and the conditions at the others; loads at rows that are not named are zero.
+void expectHeldMinimum(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& held,
+                       const std::vector<double>& l)
+{
+  for (int i = 0; i < a.size(); ++i)
+  {
+    const auto in = [i](const std::vector<int>& list) { return std::find(list.begin(), list.end(), i) != list.end(); };
+    if (!in(rows))
+    {
+      EXPECT_EQ(l[i], 0.0);
+      continue;
+    }
+    double gradient = b[i], scale = std::abs(b[i]);
+    for (int j = 0; j < a.size(); ++j)
+    {
+      gradient += a(i, j) * l[j];
+      scale = std::max(scale, std::abs(a(i, j) * l[j]));
+    }
+    // As in expectMinimum.
+    if (in(held))
+    {
+      EXPECT_NEAR(gradient, 0.0, 1e-9 * scale);
+      continue;
+    }
+    EXPECT_GE(l[i], 0.0);
+    EXPECT_GE(gradient, -1e-9 * scale);
+    EXPECT_NEAR(l[i] * gradient, 0.0, 1e-9 * scale * std::max(1.0, l[i]));
+  }
+}
+
+// One solve after the other, of other rows, with other rows held and other values: each starts from the last one, and ends where it would alone.
+TEST(Complementarity, GoesOnFromTheLastSolve)
+{
+  Random random(8);
+  for (int i = 0; i < 500; ++i)
+  {
+    const int count = 4 + random.below(20), rank = 3 + random.below(20);
+    const Rows rows = randomRows(random, count, rank);
+    const SymmetricMatrix a = gramOf(rows);
+    Complementarity solver;
+    solver.begin(a);
+    for (int turn = 0; turn < 8; ++turn)
+    {
+      SCOPED_TRACE(testing::Message() << i << ", " << turn);
+      std::vector<int> names, held;
+      for (int k = 0; k < count; ++k)
+        if (random.below(4) > 0)
+        {
+          names.push_back(k);
+          // Up to the rank random rows are independent.
+          if (static_cast<int>(held.size()) + 1 < rank && random.below(3) == 0)
+            held.push_back(k);
+        }
+      const std::vector<double> u = randomRows(random, 1, rank).front();
+      std::vector<double> b;
+      for (const auto& row : rows)
+        b.push_back(dot(row, u));
+      solver.solve(names, b, held);
+      expectHeldMinimum(a, names, b, held, solver.value());
+    }
   }
 }
 
@@ -233,16 +338,17 @@ TEST(Complementarity, OrderOfTheRowsDoesNotMatter)
     for (int turn = 0; turn < 2; ++turn)
     {
       std::vector<double> b;
-      for (int name : names)
-        b.push_back(dot(rows[name], u));
+      for (const auto& row : rows)
+        b.push_back(dot(row, u));
       Complementarity solver;
-      solver.solve(a, names, b);
+      solver.begin(a);
+      solver.solve(names, b);
       SCOPED_TRACE(i);
-      expectMinimum(a, names, b, solver);
+      expectMinimum(a, all(15), b, solver);
       change[turn].assign(3, 0.0);
-      for (std::size_t k = 0; k < names.size(); ++k)
+      for (std::size_t k = 0; k < rows.size(); ++k)
         for (int d = 0; d < 3; ++d)
-          change[turn][d] += solver.value()[k] * rows[names[k]][d];
+          change[turn][d] += solver.value()[k] * rows[k][d];
       std::reverse(names.begin(), names.end());
     }
     for (int d = 0; d < 3; ++d)
@@ -256,20 +362,29 @@ TEST(Complementarity, SomeRowsOfALargerMatrix)
   const Rows rows = randomRows(random, 20, 8);
   const SymmetricMatrix a = gramOf(rows);
   const std::vector<int> names{ 17, 3, 4, 11, 0 };
-  std::vector<double> b;
+  std::vector<double> b(20), some_b;
   Rows chosen;
   for (int name : names)
   {
-    b.push_back(random.in(-1.0, 0.2));
+    b[name] = random.in(-1.0, 0.2);
+    some_b.push_back(b[name]);
     chosen.push_back(rows[name]);
   }
   Complementarity some, alone;
-  some.solve(a, names, b);
-  const std::vector<int> count = all(5);
+  some.begin(a);
+  some.solve(names, b);
   const SymmetricMatrix small = gramOf(chosen);
-  alone.solve(small, count, b);
-  EXPECT_EQ(some.value(), alone.value());
-  EXPECT_EQ(some.support(), alone.support());
+  alone.begin(small);
+  alone.solve(all(5), some_b);
+  std::vector<double> value(20, 0.0);
+  std::vector<int> support;
+  for (int k = 0; k < 5; ++k)
+    value[names[k]] = alone.value()[k];
+  for (int k : alone.support())
+    support.push_back(names[k]);
+  std::sort(support.begin(), support.end());
+  EXPECT_EQ(some.value(), value);
+  EXPECT_EQ(some.support(), support);
 }
 
 // Held from both sides: J u is undone, and no load can grow without end.
@@ -286,7 +401,8 @@ TEST(Complementarity, LockedRowsEnd)
       b.push_back(dot(row, u));
     Complementarity solver;
     const std::vector<int> names = all(6);
-    solver.solve(a, names, b);
+    solver.begin(a);
+    solver.solve(names, b);
     expectMinimum(a, names, b, solver);
     const std::vector<double> al = product(a, names, solver.value());
     // The only velocity that enters no wall is zero; sums of six terms below 2.
@@ -319,7 +435,8 @@ TEST(Complementarity, NearlyDependentRowsDriveNoOthersOut)
       b.push_back(dot(row, u));
     Complementarity solver;
     const std::vector<int> names = all(kRank + kExtra);
-    solver.solve(a, names, b);
+    solver.begin(a);
+    solver.solve(names, b);
     const std::vector<double> al = product(a, names, solver.value());
     // What the combination leaves of a row, little times u of size 2, counts as nothing; through four rows of twice the former ones' at worst 16 of it.
     for (std::size_t k = 0; k < b.size(); ++k)
@@ -354,7 +471,8 @@ TEST(Complementarity, TestOfGordan)
         a(p, q) += 1.0;
     Complementarity solver;
     const std::vector<int> names = all(count);
-    solver.solve(a, names, std::vector<double>(count, -1.0));
+    solver.begin(a);
+    solver.solve(names, std::vector<double>(count, -1.0));
     double sum = 0.0;
     for (double l : solver.value())
       sum += l;

@@ -6,102 +6,30 @@
 
 namespace block_world
 {
-namespace
-{
-/// Share of the diagonal below which a pivot is looked at closely.
-constexpr double kDoubtful = 1e-4;
-}  // namespace
-
-/// With z = -A^-1 a the combination of rows that comes nearest to the new one, the largest z_k^2 A_kk: the new pivot p adds z_k^2 / p to entry k of the
-/// inverse, so that p against this is what the new row does to the condition of the others.
-double Cholesky::heaviest(const double* l)
-{
-  z_.assign(l, l + size_);
-  for (int i = size_ - 1; i >= 0; --i)
-  {
-    const double* other = row(i);
-    z_[i] /= other[i];
-    for (int k = first_[i]; k < i; ++k)
-      z_[k] -= other[k] * z_[i];
-  }
-  double most = 0.0;
-  for (int i = 0; i < size_; ++i)
-  {
-    double diagonal = 0.0;
-    for (int k = first_[i]; k <= i; ++k)
-      diagonal += row(i)[k] * row(i)[k];
-    most = std::max(most, z_[i] * z_[i] * diagonal);
-  }
-  return most;
-}
-
 /// Memory for so many rows.
-void Cholesky::provide(int size)
+void Complementarity::provide(std::size_t rows)
 {
-  if (first_.size() >= static_cast<std::size_t>(size))
-    return;
-  const std::size_t most = 2 * size + 14;
-  lower_.resize(most * (most + 1) / 2);
-  first_.resize(most);
-  z_.reserve(most);
-  doubtful_.reserve(most);
+  room_.provide(rows, passive_, state_, l_, x_, residual_, row_, before_, l_before_, support_);
 }
 
-void Cholesky::copy(const Cholesky& other)
+void Complementarity::begin(const SymmetricMatrix& a)
 {
-  provide(other.size_);
-  size_ = other.size_;
-  std::copy_n(other.lower_.begin(), size_ * (size_ + 1) / 2, lower_.begin());
-  std::copy_n(other.first_.begin(), size_, first_.begin());
-  doubtful_ = other.doubtful_;
+  a_ = &a;
+  const std::size_t n = a.size();
+  provide(n);
+  l_.assign(n, 0.0);
+  state_.assign(n, State::Out);
+  passive_.clear();
+  support_.clear();
+  factor_.clear();
 }
 
-bool Cholesky::append(const double* entries, double share)
+void Complementarity::suppose(int row)
 {
-  const int n = size_;
-  provide(n + 1);
-  double* l = lower_.data() + n * (n + 1) / 2;
-  int start = 0;
-  while (start < n && entries[start] == 0.0)
-    l[start++] = 0.0;
-  double pivot = entries[n];
-  for (int j = start; j < n; ++j)
+  if (state_[row] < State::Passive && factorRow(static_cast<int>(passive_.size()), row))
   {
-    const double* other = row(j);
-    const int from = std::max(start, first_[j]);
-    double rest = entries[j];
-    for (int k = from; k < j; ++k)
-      rest -= l[k] * other[k];
-    l[j] = rest / other[j];
-    pivot -= l[j] * l[j];
-  }
-  const bool doubtful = pivot < kDoubtful * entries[n];
-  if (!(pivot > share * std::max(entries[n], doubtful ? heaviest(l) : 0.0)))
-    return false;
-  if (doubtful)
-    doubtful_.push_back(n);
-  l[n] = std::sqrt(pivot);
-  first_[n] = start;
-  ++size_;
-  return true;
-}
-
-void Cholesky::solve(double* x) const
-{
-  for (int i = 0; i < size_; ++i)
-  {
-    const double* l = row(i);
-    double rest = x[i];
-    for (int k = first_[i]; k < i; ++k)
-      rest -= l[k] * x[k];
-    x[i] = rest / l[i];
-  }
-  for (int i = size_ - 1; i >= 0; --i)
-  {
-    const double* l = row(i);
-    x[i] /= l[i];
-    for (int k = first_[i]; k < i; ++k)
-      x[k] -= l[k] * x[i];
+    passive_.push_back(row);
+    state_[row] = State::Passive;
   }
 }
 
@@ -110,23 +38,25 @@ double Complementarity::gradient(int i, double& magnitude) const
 {
   double sum = (*b_)[i];
   magnitude = std::abs(sum);
+  const double* a = a_->row(i);
   for (int j : passive_)
   {
-    const double term = (*a_)((*rows_)[i], (*rows_)[j]) * l_[j];
+    const double term = a[j] * l_[j];
     sum += term;
     magnitude += std::abs(term);
   }
   return sum;
 }
 
-/// Row of the passive matrix at a position, in the order of entry.
-bool Complementarity::rowOf(int position, int candidate)
+/// Appends the row to the factor of the passive ones before that position.
+bool Complementarity::factorRow(int position, int row, double share)
 {
   row_.resize(position + 1);
+  const double* a = a_->row(row);
   for (int k = 0; k < position; ++k)
-    row_[k] = (*a_)((*rows_)[candidate], (*rows_)[passive_[k]]);
-  row_[position] = (*a_)((*rows_)[candidate], (*rows_)[candidate]);
-  return factor_.append(row_.data());
+    row_[k] = a[passive_[k]];
+  row_[position] = a[row];
+  return factor_.append(row_.data(), share);
 }
 
 void Complementarity::refactor(int from)
@@ -134,15 +64,16 @@ void Complementarity::refactor(int from)
   factor_.truncate(from);
   for (std::size_t k = from; k < passive_.size();)
   {
-    if (rowOf(static_cast<int>(k), passive_[k]))
-      ++k;
-    else
+    const int row = passive_[k];
+    if (factorRow(static_cast<int>(k), row, state_[row] == State::Held ? kTrusted : kDependent))
     {
-      // Dependent after all by rounding: it carries nothing.
-      l_[passive_[k]] = 0.0;
-      state_[passive_[k]] = 2;
-      passive_.erase(passive_.begin() + k);
+      ++k;
+      continue;
     }
+    // Dependent after all by rounding: it carries nothing.
+    l_[row] = 0.0;
+    state_[row] = State::Redundant;
+    passive_.erase(passive_.begin() + k);
   }
 }
 
@@ -166,8 +97,9 @@ void Complementarity::improve(std::vector<double>& x)
   for (std::size_t k = 0; k < n; ++k)
   {
     double sum = -(*b_)[passive_[k]];
+    const double* a = a_->row(passive_[k]);
     for (std::size_t j = 0; j < n; ++j)
-      sum -= (*a_)((*rows_)[passive_[k]], (*rows_)[passive_[j]]) * x[j];
+      sum -= a[passive_[j]] * x[j];
     residual_[k] = sum;
   }
   factor_.solve(residual_.data());
@@ -187,6 +119,16 @@ void Complementarity::refine()
     l_[passive_[k]] = std::max(0.0, x_[k]);
 }
 
+/// The row at that position is passive no longer.
+void Complementarity::leave(int position, State state)
+{
+  const int row = passive_[position];
+  l_[row] = 0.0;
+  state_[row] = state;
+  passive_.erase(passive_.begin() + position);
+  factor_.remove(position);
+}
+
 /// Moves l towards the minimum over the passive set until that minimum is positive, dropping what reaches zero.
 void Complementarity::settle()
 {
@@ -195,17 +137,14 @@ void Complementarity::settle()
     solvePassive(x_);
     double step = 1.0;
     int blocking = -1;
-    for (std::size_t k = held_; k < passive_.size(); ++k)
+    for (std::size_t k = 0; k < passive_.size(); ++k)
     {
-      const double l = l_[passive_[k]];
-      if (x_[k] <= 0.0 && l / (l - x_[k]) < step)
+      if (x_[k] > 0.0 || state_[passive_[k]] == State::Held)
+        continue;
+      const double l = l_[passive_[k]], share = l == 0.0 ? 0.0 : l / (l - x_[k]);
+      if (share < step)
       {
-        step = l / (l - x_[k]);
-        blocking = static_cast<int>(k);
-      }
-      else if (x_[k] <= 0.0 && l == 0.0)
-      {
-        step = 0.0;
+        step = share;
         blocking = static_cast<int>(k);
       }
     }
@@ -215,10 +154,7 @@ void Complementarity::settle()
       l_[passive_[k]] += step * (x_[k] - l_[passive_[k]]);
     if (blocking < 0)
       return;
-    l_[passive_[blocking]] = 0.0;
-    state_[passive_[blocking]] = 0;
-    passive_.erase(passive_.begin() + blocking);
-    refactor(blocking);
+    leave(blocking, State::Zero);
   }
 }
 
@@ -227,10 +163,10 @@ void Complementarity::settle()
 bool Complementarity::enter(int i)
 {
   const int n = static_cast<int>(passive_.size());
-  if (rowOf(n, i))
+  if (factorRow(n, i))
   {
     passive_.push_back(i);
-    state_[i] = 1;
+    state_[i] = State::Passive;
     return true;
   }
   x_.assign(row_.begin(), row_.begin() + n);
@@ -241,101 +177,95 @@ bool Complementarity::enter(int i)
     largest = std::max(largest, std::abs(x_[k]));
   double step = std::numeric_limits<double>::infinity();
   int blocking = -1;
-  for (int k = held_; k < n; ++k)
-    if (x_[k] > 1e-8 * largest && l_[passive_[k]] / x_[k] < step)
+  for (int k = 0; k < n; ++k)
+    if (state_[passive_[k]] != State::Held && x_[k] > 1e-8 * largest && l_[passive_[k]] / x_[k] < step)
     {
       step = l_[passive_[k]] / x_[k];
       blocking = k;
     }
   if (blocking < 0)
   {
-    state_[i] = 2;
+    state_[i] = State::Redundant;
     return false;
   }
   keep();
   for (int k = 0; k < n; ++k)
-    l_[passive_[k]] = k < held_ ? l_[passive_[k]] - step * x_[k] : std::max(0.0, l_[passive_[k]] - step * x_[k]);
-  l_[passive_[blocking]] = 0.0;
-  state_[passive_[blocking]] = 2;
-  passive_.erase(passive_.begin() + blocking);
+  {
+    double& l = l_[passive_[k]];
+    l -= step * x_[k];
+    if (state_[passive_[k]] != State::Held)
+      l = std::max(0.0, l);
+  }
+  leave(blocking, State::Redundant);
   l_[i] = step;
+  state_[i] = State::Passive;
   passive_.push_back(i);
-  state_[i] = 1;
-  refactor(blocking);
+  refactor(n - 1);
   return true;
 }
 
-/// Memory for so many rows.
-void Complementarity::provide(std::size_t rows)
+/// A held row becomes passive. Where it depends on the passive ones, that of the others leaves on which it depends most.
+void Complementarity::hold(int row)
 {
-  room_.provide(rows, passive_, state_, l_, x_, residual_, row_, support_);
+  if (!factorRow(static_cast<int>(passive_.size()), row))
+  {
+    x_.assign(row_.begin(), row_.end() - 1);
+    factor_.solve(x_.data());
+    int most = -1;
+    for (std::size_t k = 0; k < passive_.size(); ++k)
+      if (state_[passive_[k]] != State::Held && (most < 0 || std::abs(x_[k]) > std::abs(x_[most])))
+        most = static_cast<int>(k);
+    if (most >= 0)
+      leave(most, State::Zero);
+    if (!factorRow(static_cast<int>(passive_.size()), row, kTrusted))
+      return;
+  }
+  passive_.push_back(row);
+  state_[row] = State::Held;
 }
 
-void Complementarity::start(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b)
+/// Makes the rows the problem and the held ones passive.
+void Complementarity::choose(const std::vector<int>& rows, const std::vector<int>& held)
 {
-  a_ = &a;
-  rows_ = &rows;
-  b_ = &b;
-  const std::size_t n = rows.size();
-  provide(n);
-  l_.assign(n, 0.0);
-  state_.assign(n, 0);
-  passive_.clear();
-  held_ = 0;
-  support_.clear();
-  factor_.clear();
+  for (std::size_t i = 0; i < state_.size(); ++i)
+    state_[i] = state_[i] >= State::Passive ? State::Redundant : State::Out;
+  for (int i : rows)
+    state_[i] = state_[i] == State::Redundant ? State::Passive : State::Zero;
+  for (int k = static_cast<int>(passive_.size()) - 1; k >= 0; --k)
+    if (state_[passive_[k]] != State::Passive)
+      leave(k, State::Out);
+  for (int i : held)
+    if (state_[i] == State::Passive)
+      state_[i] = State::Held;
+  for (int i : held)
+    if (state_[i] != State::Held)
+      hold(i);
 }
 
-void Complementarity::solve(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b,
-                            const std::vector<int>& guess)
+/// The minimum over the passive rows, without those that would carry a negative load there.
+void Complementarity::takePositive()
 {
-  start(a, rows, b);
-  for (int i : guess)
-    if (rowOf(static_cast<int>(passive_.size()), i))
-    {
-      passive_.push_back(i);
-      state_[i] = 1;
-    }
-  // What would carry a negative load starts at zero.
   for (bool negative = true; negative && !passive_.empty();)
   {
     solvePassive(x_);
-    int from = -1;
-    std::size_t kept = 0;
-    for (std::size_t k = 0; k < passive_.size(); ++k)
-    {
-      if (x_[k] > 0.0)
+    negative = false;
+    for (int k = static_cast<int>(passive_.size()) - 1; k >= 0; --k)
+      if (x_[k] <= 0.0 && state_[passive_[k]] != State::Held)
       {
-        passive_[kept] = passive_[k];
-        x_[kept++] = x_[k];
-        continue;
+        leave(k, State::Zero);
+        negative = true;
       }
-      state_[passive_[k]] = 0;
-      from = from < 0 ? static_cast<int>(k) : from;
-    }
-    negative = from >= 0;
-    passive_.resize(kept);
-    if (negative)
-      refactor(from);
   }
   for (std::size_t k = 0; k < passive_.size(); ++k)
     l_[passive_[k]] = x_[k];
-  search(0.0);
 }
 
-void Complementarity::solveHeld(const SymmetricMatrix& a, const std::vector<int>& rows, const std::vector<double>& b, const Cholesky& held,
-                                double noise)
+void Complementarity::solve(const std::vector<int>& rows, const std::vector<double>& b, const std::vector<int>& held, double noise)
 {
-  start(a, rows, b);
-  factor_.copy(held);
-  held_ = held.size();
-  for (int i = 0; i < held_; ++i)
-  {
-    passive_.push_back(i);
-    state_[i] = 1;
-  }
-  settle();
-  search(noise);
+  b_ = &b;
+  choose(rows, held);
+  takePositive();
+  search(rows, noise);
 }
 
 /// Before a row leaves: what is passive, the one that just entered last, and its loads.
@@ -352,8 +282,9 @@ void Complementarity::keep()
 void Complementarity::undo(int entered)
 {
   for (int i : before_)
-    state_[i] = 1;
-  state_[entered] = 2;
+    if (state_[i] != State::Held)
+      state_[i] = State::Passive;
+  state_[entered] = State::Redundant;
   if (before_.back() == entered)
     before_.pop_back();
   l_ = l_before_;
@@ -363,21 +294,21 @@ void Complementarity::undo(int entered)
 }
 
 /// Takes in what is most negative until nothing is.
-void Complementarity::search(double noise)
+void Complementarity::search(const std::vector<int>& rows, double noise)
 {
   const std::vector<double>& b = *b_;
-  const int n = static_cast<int>(rows_->size());
+  const int n = static_cast<int>(rows.size());
   double scale = 0.0;
-  for (double value : b)
-    scale = std::max(scale, std::abs(value));
+  for (int i : rows)
+    scale = std::max(scale, std::abs(b[i]));
 
   for (int pivots = 0; pivots < 10 * n + 20; ++pivots)
   {
     int best = -1;
     double lowest = 0.0;
-    for (int i = 0; i < n; ++i)
+    for (int i : rows)
     {
-      if (state_[i] != 0)
+      if (state_[i] != State::Zero)
         continue;
       double magnitude;
       const double g = gradient(i, magnitude);
@@ -393,19 +324,20 @@ void Complementarity::search(double noise)
     if (enter(best))
     {
       settle();
-      if (state_[best] != 1)
+      if (state_[best] != State::Passive)
         undo(best);
       else
-        for (int i = held_; i < n; ++i)
-          if (state_[i] == 2)
-            state_[i] = 0;
+        for (int i : rows)
+          if (state_[i] == State::Redundant)
+            state_[i] = State::Zero;
     }
   }
 
   double largest = 0.0;
-  for (double value : l_)
-    largest = std::max(largest, value);
-  for (int i = 0; i < n; ++i)
+  for (int i : rows)
+    largest = std::max(largest, l_[i]);
+  support_.clear();
+  for (int i = 0; i < static_cast<int>(l_.size()); ++i)
     if (l_[i] > 1e-10 * largest)
       support_.push_back(i);
 }

@@ -47,9 +47,9 @@ void ContactGroup::clean()
 /// Memory for so many touches of so many members. For those of most events it is there from the start, so that the first hit takes no longer.
 void ContactGroup::provide(std::size_t rows, std::size_t bodies)
 {
-  rows_room_.provide(rows, all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_, held_,
-                     extended_rows_, depth_, rest_speed_, holds_, pushes_, b_, row_, solution_, impulses_, minus_one_, meets_);
-  members_room_.provide(bodies, sizes_, changes_, rebound_, velocities_, start_, speeds_);
+  rows_room_.provide(rows, all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, held_, extended_rows_,
+                     rates_, depth_, rest_speed_, over_, accelerations_, row_, solution_, impulses_, minus_one_, meets_, presses_);
+  members_room_.provide(bodies, sizes_, changes_, velocities_, start_, speeds_, worst_);
 }
 
 void ContactGroup::prepare()
@@ -115,16 +115,17 @@ bool ContactGroup::anyElastic(const std::vector<int>& rows) const
 /// With c = M^-1 J'l the velocities v end at v + c inelastically, at v + c + z with z = M^-1 J'E l elastically, z not longer than keeps the energy.
 void ContactGroup::reflect(const std::vector<int>& rows)
 {
-  b_.clear();
-  guess_.clear();
+  solver_.begin(gram_);
   for (int i : rows)
   {
-    guess_.push_back(static_cast<int>(b_.size()));
-    b_.push_back(velocityOf(i));
+    rates_[i] = velocityOf(i);
+    solver_.suppose(i);
   }
-  solver_.solve(gram_, rows, b_, guess_);
+  solver_.solve(rows, rates_);
   solver_.refine();  // elastic impacts keep their energy to rounding, however many there are
-  impulses_ = solver_.value();
+  impulses_.clear();
+  for (int i : rows)
+    impulses_.push_back(solver_.value()[i]);
   const double rebound = shareOfRebound(rows);
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
@@ -133,36 +134,45 @@ void ContactGroup::reflect(const std::vector<int>& rows)
       continue;
     touches[rows[k]].impulse += impulse;
     push(rows[k], impulse);
+    const double* changes = gram_.row(rows[k]);
+    for (std::size_t i = 0; i < rates_.size(); ++i)
+      rates_[i] += impulse * changes[i];
   }
 }
 
-/// s <= 1 with |v + c + s z| <= |v| in the mass metric; 1 but where different elasticities meet.
+/// s <= 1 with |v + c + s z| <= |v| in the mass metric; 1 but where different elasticities meet. There c.M z = l'A E l, v.M z = w'E l.
 double ContactGroup::shareOfRebound(const std::vector<int>& rows)
 {
   const double e = touches[rows.front()].elasticity;
   if (std::all_of(rows.begin(), rows.end(), [&](int i) { return touches[i].elasticity == e; }))
     return 1.0;
-  row_.clear();
+  double square = 0.0, given = 0.0, along = 0.0;
   for (std::size_t k = 0; k < rows.size(); ++k)
-    row_.push_back(touches[rows[k]].elasticity * impulses_[k]);
-  sumChanges(rows, impulses_, changes_);
-  sumChanges(rows, row_, rebound_);
-  const double square = product(rebound_, rebound_), given = product(changes_, changes_),
-               along = product(velocities(), rebound_) + product(changes_, rebound_);
+  {
+    double change = 0.0, back = 0.0;
+    for (std::size_t j = 0; j < rows.size(); ++j)
+    {
+      const double term = gram_(rows[k], rows[j]) * impulses_[j];
+      change += term;
+      back += touches[rows[j]].elasticity * term;
+    }
+    const double z = touches[rows[k]].elasticity * impulses_[k];
+    square += z * back;
+    given += impulses_[k] * change;
+    along += z * (rates_[rows[k]] + change);
+  }
   return square > 0.0 ? std::min(1.0, (std::sqrt(along * along + square * given) - along) / square) : 1.0;
 }
 
 /// Inelastic end: no touch approaches any more, min |dv| in the mass metric with w >= 0.
 void ContactGroup::stop()
 {
-  b_.clear();
-  for (int i : all_)
-    b_.push_back(velocityOf(i));
-  solver_.solve(gram_, all_, b_);
-  stopped_.clear();
-  for (int k : solver_.support())
-    stopped_.push_back(all_[k]);
+  measureRates();
+  solver_.begin(gram_);
+  solver_.solve(all_, rates_);
+  stopped_ = solver_.support();
   bringToRestWithNeighbours(stopped_);
+  measureRates();
 }
 
 /// Gordan's alternative: no velocity opens all these touches exactly if some l >= 0, sum l = 1, has l'A l = 0. With c = (1, ..., 1),
@@ -182,7 +192,10 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
     for (int j = 0; j < n; ++j)
       extended_(i, j) = gram_(rows[i], rows[j]) / size + 1.0;
   }
-  solver_.solve(extended_, extended_rows_, minus_one_);
+  solver_.begin(extended_);
+  for (int i : extended_rows_)
+    solver_.suppose(i);
+  solver_.solve(extended_rows_, minus_one_);
   double sum = 0.0;
   for (double l : solver_.value())
     sum += l;
@@ -193,17 +206,31 @@ bool ContactGroup::isLocked(const std::vector<int>& rows)
 bool ContactGroup::allLeave() const
 {
   for (std::size_t i = 0; i < touches.size(); ++i)
-    if (touches[i].gap <= closed_ && velocityOf(static_cast<int>(i)) <= rest_speed_[i])
+    if (touches[i].gap <= closed_ && rates_[i] <= rest_speed_[i])
       return false;
   return true;
 }
 
-/// What the last plan pushes and still approaches, however slowly: it bounces before another plan is made.
-void ContactGroup::takeBouncing()
+/// The normal velocities, without what rounding has left in them of stage after stage.
+void ContactGroup::measureRates()
+{
+  rates_.resize(touches.size());
+  for (std::size_t i = 0; i < touches.size(); ++i)
+    rates_[i] = velocityOf(static_cast<int>(i));
+}
+
+/// What approaches faster than could come to rest; else of what the last plan pushes whatever approaches still, however slowly: that bounces before
+/// another plan is made.
+void ContactGroup::takeApproaching()
 {
   approaching_.clear();
+  for (int i : all_)
+    if (rates_[i] < -rest_speed_[i])
+      approaching_.push_back(i);
+  if (!approaching_.empty())
+    bouncing_.clear();
   for (int i : bouncing_)
-    if (velocityOf(i) < -noise_)
+    if (rates_[i] < -noise_)
       approaching_.push_back(i);
 }
 
@@ -224,6 +251,8 @@ double ContactGroup::collide(const ContactScales& scales)
       all_.push_back(i);
 
   start_ = velocities();
+  measureRates();
+  first_plan_ = true;
   bouncing_.clear();
   bool planned = false;
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends
@@ -233,32 +262,29 @@ double ContactGroup::collide(const ContactScales& scales)
   {
     if (stage == 50 && isLocked(all_))
       break;
-    approaching_.clear();
-    for (int i : all_)
-      if (velocityOf(i) < -rest_speed_[i])
-        approaching_.push_back(i);
+    takeApproaching();
+    if (approaching_.empty())
+    {
+      measureRates();
+      takeApproaching();
+    }
     if (approaching_.empty() && allLeave())
     {
       clean();
       return lossSince(start_);
     }
-    if (!approaching_.empty())
-      bouncing_.clear();
-    else
+    const bool slow = approaching_.empty() || !bouncing_.empty();
+    if (slow && !anyElastic(approaching_))
     {
-      takeBouncing();
-      if (!anyElastic(approaching_))
-      {
-        planCapture();
-        bouncing_.clear();
-        for (std::size_t k = 0; k < others_.size(); ++k)
-          if (pushes_[k] > 0.0)
-            bouncing_.push_back(others_[k]);
-        takeBouncing();
-        planned = !anyElastic(approaching_);
-        if (planned)
-          break;
-      }
+      planCapture();
+      bouncing_.clear();
+      for (int i : others_)
+        if (planned_.value()[i] > 0.0)
+          bouncing_.push_back(i);
+      takeApproaching();
+      planned = !anyElastic(approaching_);
+      if (planned)
+        break;
     }
     if (anyElastic(approaching_))
       reflect(approaching_);

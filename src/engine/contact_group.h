@@ -89,25 +89,25 @@ private:
   void stop();
   void clean();
   bool allLeave() const;
-  void takeBouncing();
+  void measureRates();
+  void takeApproaching();
   bool anyElastic(const std::vector<int>& rows) const;
   bool isLocked(const std::vector<int>& rows);
 
   // capture.cpp
   double accelerationNoise(const Touch& touch) const;
   void planCapture();
-  void solveRest(const std::vector<int>& candidates);
-  void factorPressed();
+  void accelerate();
+  void solveRest();
   void solvePlan();
   void plannedSpeeds();
-  int leastHeld();
+  bool leaveOut();
   void carryOut();
   void capture();
 
   // standstill.cpp
   void independent(const std::vector<int>& rows, double share);
   void sumChanges(const std::vector<int>& rows, const std::vector<double>& impulses, std::vector<Twist>& changes) const;
-  double product(const std::vector<Twist>& p, const std::vector<Twist>& q) const;
   const std::vector<Twist>& velocities();
   double lossSince(const std::vector<Twist>& start);
   bool atRest(const std::vector<int>& rows) const;
@@ -120,14 +120,19 @@ private:
 
   Room rows_room_, members_room_;
   SymmetricMatrix gram_;
-  Complementarity solver_;
+  Complementarity solver_;    ///< of impacts
+  Complementarity pressing_;  ///< of the forces of what may rest
+  Complementarity planned_;   ///< of the impulses that bring the pressed touches to rest and keep the others from approaching then
   Cholesky factor_;
-  std::vector<int> all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, guess_, held_;
+  std::vector<int> all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, held_;
+  std::vector<double> rates_;       ///< m/s, by touch: normal velocities
+  std::vector<double> accelerations_;  ///< m/s^2, by candidate touch: free accelerations of the gaps
+  std::vector<char> presses_;       ///< by candidate touch: whether its free acceleration presses by more than its rounding
   std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
   std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
-  std::vector<double> holds_;       ///< N s, impulses that bring the pressed touches to rest
-  std::vector<double> pushes_;      ///< N s, impulses that keep the others from approaching then
-  std::vector<double> b_, row_, solution_, impulses_;
+  std::vector<double> over_;        ///< by pressed touch: how far its hop would go, against what may be left out
+  std::vector<double> worst_;       ///< by member: the largest of these
+  std::vector<double> row_, solution_, impulses_;
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
   struct Size
@@ -135,8 +140,9 @@ private:
     double x = 0.0, y = 0.0, omega = 0.0;
   };
   std::vector<Size> sizes_;
-  std::vector<Twist> changes_, rebound_, velocities_, start_;  ///< by member
+  std::vector<Twist> changes_, velocities_, start_;  ///< by member
   std::vector<double> speeds_;                         ///< m/s, by member: what the plan changes
+  bool first_plan_ = true;  ///< of this collision: no forces and impulses are known to start from
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
 
   /// Workspace of isLocked.

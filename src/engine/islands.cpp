@@ -10,10 +10,9 @@ namespace block_world
 {
 namespace
 {
-/// Where events cut arcs off after less than this share of their horizon, as in heaps, half as many orders are good for as long: the horizon goes
-/// with eps^(1 / (order + 1)), and eps^(1/13 - 1/26) = 0.25.
+/// Where events cut arcs off after less than this share of the highest order's horizon, as in heaps, half as many orders are good for as long: the
+/// horizon goes with eps^(1 / (order + 1)), and eps^(1/13 - 1/26) = 0.25.
 constexpr double kBrief = 0.25;
-constexpr int kLowOrder = kOrder / 2;
 }  // namespace
 
 /// New islands among the members: joined by touches that carry force or by springs.
@@ -139,7 +138,7 @@ bool World::Engine::letGo(Island& island, const Time& time)
   return true;
 }
 
-/// Whether the former arcs of an island's bodies have been cut off, those that had a horizon.
+/// Whether the former arcs of an island's bodies, those that had a horizon, have been cut off before arcs of low order would end.
 bool World::Engine::wereBrief(const Island& island, const Time& time) const
 {
   bool brief = false;
@@ -148,7 +147,8 @@ bool World::Engine::wereBrief(const Island& island, const Time& time) const
     const Arc& arc = bodies[body].arc;
     if (std::isinf(arc.horizon))
       continue;
-    if (time - arc.start > kBrief * arc.horizon)
+    const double low = arc.degree <= kLowOrder ? arc.horizon : kBrief * arc.horizon;
+    if (time >= arc.end || time - arc.start >= low)
       return false;
     brief = true;
   }

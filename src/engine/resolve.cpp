@@ -187,7 +187,7 @@ void World::Engine::join(int body, const Time& time)
         join(end, time);
 }
 
-/// Whether the circles of a pair, or a circle and a half-plane, are as near as a touch has them.
+/// Whether the circles of a pair, or a circle and a half-plane, are as near as a touch has them, and so is the face that parted them last.
 bool World::Engine::mayTouch(const Pair& pair, const Time& time)
 {
   const Polygon &first = *bodies[pair.a].shape, &second = *bodies[pair.b].shape;
@@ -200,7 +200,12 @@ bool World::Engine::mayTouch(const Pair& pair, const Time& time)
     return !(face.normal.dot(wall_first ? at_second : at_first) - face.offset > (wall_first ? second : first).radius + shell);
   }
   const double reach = first.radius + second.radius + shell;
-  return !((at_first - at_second).squaredNorm() > reach * reach);
+  if ((at_first - at_second).squaredNorm() > reach * reach)
+    return false;
+  // The face that parted them last may do so still.
+  const Frame of_first = frame(pair.a, time), of_second = frame(pair.b, time);
+  return pair.face < 0 || !(pair.face_of_a ? faceGap(first.faces[pair.face], of_first, second, of_second) > shell
+                                           : faceGap(second.faces[pair.face], of_second, first, of_first) > shell);
 }
 
 /// The body as the group has it, or else as its arc has it, which is put into the member given.

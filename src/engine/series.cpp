@@ -111,6 +111,8 @@ double firstZero(double g, double v, double a)
 Series shifted(const Series& c, int degree, double shift)
 {
   Series result = c;
+  if (shift == 0.0)
+    return result;
   for (int i = 0; i < degree; ++i)
     for (int n = degree - 1; n >= i; --n)
       result[n] += shift * result[n + 1];

@@ -17,6 +17,9 @@ constexpr double kCancelled = 64 * kRounding;
 /// Odd, as coefficients are read two at a time.
 constexpr int kOrder = 25;
 
+/// Of arcs that are cut off early: a quarter of the work for a quarter of the horizon.
+constexpr int kLowOrder = kOrder / 2;
+
 /// Coefficients of 1, s, s^2, ... with s the time since the start of an arc.
 using Series = std::array<double, kOrder + 1>;
 using VectorSeries = std::array<Vec2, kOrder + 1>;

@@ -24,16 +24,6 @@ void ContactGroup::sumChanges(const std::vector<int>& rows, const std::vector<do
   }
 }
 
-/// p.M q
-double ContactGroup::product(const std::vector<Twist>& p, const std::vector<Twist>& q) const
-{
-  double sum = 0.0;
-  for (std::size_t i = 0; i < members.size(); ++i)
-    if (members[i].inverse_mass > 0.0)
-      sum += p[i].velocity.dot(q[i].velocity) / members[i].inverse_mass + p[i].omega * q[i].omega / members[i].inverse_inertia;
-  return sum;
-}
-
 const std::vector<ContactGroup::Twist>& ContactGroup::velocities()
 {
   velocities_.resize(members.size());

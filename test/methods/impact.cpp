@@ -39,17 +39,18 @@ void apply(ContactGroup& group, const std::vector<double>& impulses)
 
 void solveTogether(Impact& impact, const std::vector<int>& touches, std::vector<double>& impulses)
 {
-  std::vector<double> target;
+  std::vector<double> target(impact.velocity.size());
   for (int i : touches)
-    target.push_back((1.0 + impact.elasticity[i]) * impact.velocity[i]);
+    target[i] = (1.0 + impact.elasticity[i]) * impact.velocity[i];
   Complementarity solver;
-  solver.solve(impact.gram, touches, target);
-  for (std::size_t k = 0; k < touches.size(); ++k)
+  solver.begin(impact.gram);
+  solver.solve(touches, target);
+  for (int i : touches)
   {
-    const double z = solver.value()[k];
-    impulses[touches[k]] += z;
+    const double z = solver.value()[i];
+    impulses[i] += z;
     for (std::size_t j = 0; j < impact.velocity.size(); ++j)
-      impact.velocity[j] += impact.gram(static_cast<int>(j), touches[k]) * z;
+      impact.velocity[j] += impact.gram(static_cast<int>(j), i) * z;
   }
 }
 
