@@ -21,10 +21,10 @@ void writeTable(const std::vector<CaseResults>& all, std::ostream& out);
 /// What a collision costs each engine at its default, in the cases where that is asked: a list.
 void writeCollisions(const std::vector<CaseResults>& all, std::ostream& out);
 
-/// What is asked of us.
+/// What is asked of us, all of it of one setting.
 struct Goal
 {
-  std::string scene, what;
+  std::string scene, setting, what;
   double asked = 0.0, measured = 0.0;
   bool met = false;
 };
