@@ -1,6 +1,8 @@
 // Free motion, springs and impacts of World, against closed forms and at default tolerance unless a test says
 // otherwise.
 
+#include <Eigen/Geometry>
+
 #include "closed_forms.h"
 #include "world_testing.h"
 
@@ -38,6 +40,29 @@ TEST(SpringMotion, WithRestLengthAndDamper)
   for (const double t : { 0.5, 1.5, 3.0 })
     expectState(stateAt(world, t), body.after(from, t), 1e-10);
   expectExact(world, 1e-10);
+}
+
+// The direction of a spring whose ends meet is that in which they part, and turns from there on. Without damping the energy tells, from the states alone.
+TEST(SpringMotion, EndsThatMeet)
+{
+  Scene scene = makeScene(3.0, 1.0, { moving(withMass(makeBox("a", { 1, 3 }, { 0.5, -0.25 }), 1.5), { 0.4, -0.3 }, 0.5) });
+  Spring spring;
+  spring.from_block = "a";
+  spring.from_point = Vector2d(0.25, 0.75);
+  spring.to_point = Vector2d(0.75, 0.5);
+  spring.stiffness = 20.0;
+  spring.rest_length = 0.75;
+  scene.springs = { spring };
+  World world(scene);
+  const auto energy = [&](const MotionState& state) {
+    const Vector2d end = state.position + Eigen::Rotation2Dd(state.angle) * spring.from_point;
+    const double stretch = (end - spring.to_point).norm() - spring.rest_length;
+    return 0.5 * 1.5 * state.velocity.squaredNorm() + 0.5 * 1.25 * state.omega * state.omega + 1.5 * 3.0 * state.position.y() +
+           0.5 * spring.stiffness * stretch * stretch;
+  };
+  const double start = energy(world.state(0));
+  for (const double t : { 0.01, 0.05, 0.2, 1.0 })
+    EXPECT_NEAR(energy(stateAt(world, t)), start, 1e-13 * start) << t;  // some hundred roundings
 }
 
 TEST(SpringMotion, Mouse)
