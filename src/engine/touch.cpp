@@ -197,7 +197,8 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
     return;
   }
 
-  // One touch of two that coincide, vertex on vertex, is enough: keep the one whose vertex lies within the face.
+  // One touch of two that coincide, vertex on vertex, is enough: keep the one whose vertex lies within the face, of two corners on each other that
+  // of the first body, so that rounding does not choose.
   const auto inside = [&](const Touch& t) {
     const Face& face = (t.b == b.body ? body_b : body_a).shape->faces[t.face];
     return std::min(t.along, face.length - t.along);
@@ -213,7 +214,8 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
         ++j;
         continue;
       }
-      if (inside(q) > inside(p))
+      const double deeper = inside(q) - inside(p);
+      if (deeper > 0.0 || (deeper == 0.0 && q.a == a.body))
         touches[i] = touches[j];
       touches.erase(touches.begin() + j);
     }
