@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 
 #include "limits.h"
 #include "replay.h"
@@ -173,7 +174,7 @@ void Replay::checkSigns(const std::vector<const ContactRow*>& events)
   if (captures && least.impulse < 0.0)
   {
     const double most = std::max(relative_error, std::sqrt(static_cast<double>(events.size())) * captureImpulse());
-    checks_.sign.add(pull(events, most), most, least.time, least.a, least.b);
+    checks_.sign.add(pull(events, states_, most), most, least.time, least.a, least.b);
   }
   else
     checks_.sign.add(std::max(0.0, -least.impulse), relative_error, least.time, least.a, least.b);
@@ -216,10 +217,18 @@ void Replay::strikeGroup(const std::vector<const ContactRow*>& group)
   for (const ContactRow* row : group)
     work += std::abs(row->impulse) * (speedOf(row->a) + speedOf(row->b));
   const std::vector<State> old = group.size() == 1 && free ? states_ : std::vector<State>();
+  // Impulses that all but cancel are known to some roundings of the largest.
+  double largest = 0.0;
   for (const ContactRow* row : group)
+  {
     push(*row);
+    largest = std::max(largest, 4.0 * std::numeric_limits<double>::epsilon() * std::abs(row->impulse));
+  }
   for (const int body : members)
+  {
+    pushed_[body] += largest / relative_error * Vec2(1.0, scene_.blocks[body].shape.radius);
     after += energyOf(body);
+  }
   if (free)
   {
     account_->impact += before - after;
@@ -362,28 +371,36 @@ void Replay::checkRest(size_t sample)
 {
   const std::vector<State> states(run_.states.begin() + sample * run_.bodies,
                                   run_.states.begin() + (sample + 1) * run_.bodies);
-  const size_t first = sample == 0 ? 0 : rows_end_[sample - 1];
-  double largest = 0.0;
-  for (size_t i = first; i < rows_end_[sample]; ++i)
+  std::vector<const ContactRow*> rests;
+  for (size_t i = sample == 0 ? 0 : rows_end_[sample - 1]; i < rows_end_[sample]; ++i)
     if (run_.contacts[i].kind == Kind::Rest)
-      largest = std::max(largest, std::abs(run_.contacts[i].impulse));
-  for (size_t i = first; i < rows_end_[sample]; ++i)
+      rests.push_back(&run_.contacts[i]);
+  checkRestSigns(rests, states);
+  for (const ContactRow* row : rests)
   {
-    const ContactRow& row = run_.contacts[i];
-    if (row.kind != Kind::Rest)
-      continue;
-    // Where nothing presses, forces are the rounding of nothing.
-    checks_.sign.add(std::max(0.0, -row.impulse), relative_error * std::max(largest, relative_error), row.time, row.a, row.b);
-    checkRow(row, states, 0.0);
+    checkRow(*row, states, 0.0);
     double speed = 1.0;
-    for (const int body : { row.a, row.b })
+    for (const int body : { row->a, row->b })
     {
       if (scene_.movable(body))
         speed += states[body].velocity.norm() + scene_.blocks[body].shape.radius * std::abs(states[body].omega);
     }
-    checks_.rest_speed.add(std::abs(normalVelocity(row, states)), 100.0 * relative_error * speed, row.time, row.a,
-                           row.b);
+    checks_.rest_speed.add(std::abs(normalVelocity(*row, states)), 100.0 * relative_error * speed, row->time, row->a, row->b);
   }
+}
+
+// Where nothing presses, forces are the rounding of nothing. Where touches depend on each other nearly, forces are known as far as they do something.
+void Replay::checkRestSigns(const std::vector<const ContactRow*>& rests, const std::vector<State>& states)
+{
+  double largest = relative_error, least = 0.0;
+  for (const ContactRow* row : rests)
+  {
+    largest = std::max(largest, std::abs(row->impulse));
+    least = std::min(least, row->impulse);
+  }
+  const double limit = relative_error * largest, most = -least > limit ? pull(rests, states, limit) : limit;
+  for (const ContactRow* row : rests)
+    checks_.sign.add(std::min(most, std::max(0.0, -row->impulse)), limit, row->time, row->a, row->b);
 }
 
 // A pair that carries force at one end of an interval only must have had an event of its island, or a change of the

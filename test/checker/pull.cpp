@@ -57,11 +57,13 @@ double leastDistance(const MatrixXd& c, const VectorXd& y, double enough)
 }
 }  // namespace
 
-// N s, what of the impulses j no pushes p >= 0 at touches would do: min |J'(j - p)| sqrt(m) in the metric M^-1, with m all movable mass. On a short
-// lever large pulls and pushes do little together. What rests nearby may push, too, though its impulses add up to nothing: a bounce pushes up what
-// the capture then stops.
-double Replay::pull(const std::vector<const ContactRow*>& events, double enough) const
+// What of the impulses j (N s), or forces (N), no pushes p >= 0 at touches would do: min |J'(j - p)| sqrt(m) in the metric M^-1, with m all movable mass.
+// On a short lever large pulls and pushes do little together. What rests nearby may push, too, though its impulses add up to nothing: a bounce pushes up
+// what the capture then stops.
+double Replay::pull(const std::vector<const ContactRow*>& pulling, const std::vector<State>& states, double enough) const
 {
+  std::vector<const ContactRow*> touches = pulling;
+  touches.insert(touches.end(), rests_.begin(), rests_.end());
   std::vector<int> place(run_.bodies, -1);
   double mass = 0.0;
   int count = 0;
@@ -71,8 +73,6 @@ double Replay::pull(const std::vector<const ContactRow*>& events, double enough)
       mass += drive_->bodies[body].mass;
       place[body] = count++;
     }
-  std::vector<const ContactRow*> touches = events;
-  touches.insert(touches.end(), rests_.begin(), rests_.end());
   MatrixXd columns = MatrixXd::Zero(3 * count, touches.size());
   VectorXd pulls = VectorXd::Zero(3 * count), all = pulls;
   for (size_t k = 0; k < touches.size(); ++k)
@@ -83,11 +83,11 @@ double Replay::pull(const std::vector<const ContactRow*>& events, double enough)
       if (!scene_.movable(body))
         continue;
       const Vec2 force = (body == row.a ? 1.0 : -1.0) * row.normal;
-      const double torque = cross(Vec2(row.point - states_[body].position), force);
+      const double torque = cross(Vec2(row.point - states[body].position), force);
       columns.col(k).segment<2>(3 * place[body]) = force / std::sqrt(drive_->bodies[body].mass);
       columns(3 * place[body] + 2, k) = torque / std::sqrt(motion_.inertia(*drive_, body));
     }
-    const double impulse = k < events.size() ? row.impulse : 0.0;
+    const double impulse = k < pulling.size() ? row.impulse : 0.0;
     pulls += std::min(0.0, impulse) * columns.col(k);
     all += impulse * columns.col(k);
     columns.col(k).normalize();

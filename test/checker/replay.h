@@ -86,13 +86,14 @@ private:
   // impacts.cpp: what happens at one time
   void strike(RowRange rows);
   void checkSigns(const std::vector<const ContactRow*>& events);
-  double pull(const std::vector<const ContactRow*>& events, double enough) const;
+  double pull(const std::vector<const ContactRow*>& pulling, const std::vector<State>& states, double enough) const;
   void strikeGroup(const std::vector<const ContactRow*>& group);
   void push(const ContactRow& row);
   void loseIsland(int body);
   void checkSingle(const ContactRow& row, const std::vector<State>& before);
   void checkRow(const ContactRow& row, const std::vector<State>& states, double slack);
   void checkRest(size_t sample);
+  void checkRestSigns(const std::vector<const ContactRow*>& rests, const std::vector<State>& states);
   void checkRestSet(size_t sample);
   double normalVelocity(const ContactRow& row, const std::vector<State>& states) const;
   double overlap(int a, int b, const std::vector<State>& states) const;
