@@ -131,12 +131,12 @@ TEST(Resting, WaitsAMillionSecondsAndIsHit)
   EXPECT_NEAR(world.state(world.find("hammer")).velocity.x(), 0.35, 1e-13);
   EXPECT_NEAR(world.state(0).velocity.x(), 0.65, 1e-13);
   EXPECT_NEAR(world.state(0).position.x(), 0.325, 1e-13);
-  // A tilt of 2e-14 by roundings turns the load of 9.8 kN on blocks of 1 kg into 2e-10 m/s^2 sideways, for half a second.
+  // A tilt of 1e-14 by roundings turns the load of 9.8 kN on blocks of 1 kg into 1e-10 m/s^2 sideways, for half a second.
   for (int i = 1; i < 10; ++i)
-    EXPECT_NEAR((world.state(i).position - Vector2d(0, i + 0.5)).norm(), 0.0, 2.5e-11) << i;
+    EXPECT_NEAR((world.state(i).position - Vector2d(0, i + 0.5)).norm(), 0.0, 1e-11) << i;
   EXPECT_NEAR(restingForce(world, "wall_bottom"), 1010.0 * 9.8, 1e-12 * 1010.0 * 9.8);
-  // While the lowest block slides, ten gaps under 10 kN drift by roundings of coordinates of 10 m: some 5e-14 m each.
-  expectExact(world, 1e-13 * world.energy().gravity);
+  // While the lowest block slides, ten gaps under 10 kN drift by roundings of coordinates of 10 m, some 5e-15 m each.
+  expectExact(world, 1e-14 * world.energy().gravity);
 }
 
 // C6: side by side on the floor, against each other and a wall without force.
