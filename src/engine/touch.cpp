@@ -197,11 +197,15 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
     return;
   }
 
-  // One touch of two that coincide, vertex on vertex, is enough: keep the one whose vertex lies within the face, of two corners on each other that
-  // of the first body, so that rounding does not choose.
+  // One touch of two that coincide, vertex on vertex, is enough: keep the one whose vertex lies within the face. Where that is rounding, that of the
+  // lighter body, whatever the order of blocks and vertices.
   const auto inside = [&](const Touch& t) {
     const Face& face = (t.b == b.body ? body_b : body_a).shape->faces[t.face];
     return std::min(t.along, face.length - t.along);
+  };
+  const auto lighter = [&](const Touch& p, const Touch& q) {
+    const double of_p = (p.a == a.body ? a : b).inverse_mass, of_q = (q.a == a.body ? a : b).inverse_mass;
+    return of_p == of_q ? inside(p) > inside(q) : of_p > of_q;
   };
   for (std::size_t i = first; i < touches.size(); ++i)
     for (std::size_t j = i + 1; j < touches.size();)
@@ -215,7 +219,7 @@ void TouchFinder::find(const Body& body_a, const Member& a, const Body& body_b, 
         continue;
       }
       const double deeper = inside(q) - inside(p);
-      if (deeper > 0.0 || (deeper == 0.0 && q.a == a.body))
+      if (deeper > closed || (deeper >= -closed && lighter(q, p)))
         touches[i] = touches[j];
       touches.erase(touches.begin() + j);
     }
