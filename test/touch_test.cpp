@@ -90,6 +90,23 @@ TEST(TouchFinder, FlatOnFlat)
   }
 }
 
+// Corners that are on each other but for rounding: the lighter block's count, in either order, to either side.
+TEST(TouchFinder, CornersOnEachOtherAreTheLighterOnes)
+{
+  for (const double side : { -1.0, 1.0 })
+    for (const double off : { -4e-16, 0.0, 4e-16 })
+      for (const bool swapped : { false, true })
+      {
+        const Body heavy = boxAt(1.0, 0.75, Vec2(0.0, 0.0));
+        Body light = block(rectangle(1.0, 0.75), 0.1);
+        launch(light, Vec2(side, off));
+        const std::vector<Touch> touches = swapped ? touchesOf(light, heavy) : touchesOf(heavy, light);
+        ASSERT_EQ(touches.size(), 2u);
+        for (const Touch& t : touches)
+          EXPECT_EQ(t.a, swapped ? 0 : 1) << side << " " << off;
+      }
+}
+
 TEST(TouchFinder, VertexOnFace)
 {
   const double half_diagonal = std::sqrt(0.5);
