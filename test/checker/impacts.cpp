@@ -163,15 +163,19 @@ void Replay::strike(RowRange rows)
 
 // Where a slow bounce is replaced by its limit, touches that open slowly are held as well, and what is listed stands
 // for the applied forces during the hops left out: it may pull, by no more than the speed of capture of all that moves,
-// for each touch. (Each may press with all weight, and the energies of their hops add up: so do the squares.)
+// for each touch. (Each may press with all weight, and the energies of their hops add up: so do the squares.) Some carry
+// nothing once all are at rest, so that no row of a rest tells of them, but that they were slow.
 void Replay::checkSigns(const std::vector<const ContactRow*>& events)
 {
   const bool captures = std::any_of(events.begin(), events.end(), [&](const ContactRow* row) {
     return row->kind != Kind::Impact || std::binary_search(rest_pairs_.begin(), rest_pairs_.end(), pairOf(*row));
   });
+  const bool slow = std::all_of(events.begin(), events.end(), [&](const ContactRow* row) {
+    return row->impulse >= 0.0 || std::abs(row->normal_velocity) <= captureSpeed(*row, states_);
+  });
   const ContactRow& least = **std::min_element(
       events.begin(), events.end(), [](const ContactRow* p, const ContactRow* q) { return p->impulse < q->impulse; });
-  if (captures && least.impulse < 0.0)
+  if (least.impulse < 0.0 && (captures || slow))
   {
     const double most = std::max(relative_error, std::sqrt(static_cast<double>(events.size())) * captureImpulse());
     checks_.sign.add(pull(events, states_, most), most, least.time, least.a, least.b);
