@@ -103,10 +103,6 @@ bool ContactGroup::leaveOut()
 void ContactGroup::planCapture()
 {
   measureRates();
-  if (first_plan_)
-    for (Complementarity* solver : { &pressing_, &planned_ })
-      solver->begin(gram_);
-  first_plan_ = false;
   plan_.clear();
   candidates_.clear();
   for (int i = 0; i < static_cast<int>(touches.size()); ++i)

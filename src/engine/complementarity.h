@@ -43,14 +43,13 @@ public:
   }
 
 private:
-  /// Of a row: not of the problem, at zero, at zero and redundant for now, passive, passive and held.
   enum class State : char
   {
-    Out,
-    Zero,
-    Redundant,
-    Passive,
-    Held
+    Out,        ///< not among the rows of this solve
+    Zero,       ///< carries nothing
+    Redundant,  ///< carries nothing and depends on passive rows; looked at again when these change
+    Passive,    ///< may carry load
+    Held        ///< an equation: passive, with a load of any sign
   };
 
   void provide(std::size_t rows);

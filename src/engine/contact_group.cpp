@@ -252,7 +252,8 @@ double ContactGroup::collide(const ContactScales& scales)
 
   start_ = velocities();
   measureRates();
-  first_plan_ = true;
+  pressing_.begin(gram_);
+  planned_.begin(gram_);
   bouncing_.clear();
   bool planned = false;
   // A free cone needs few stages; in one that no velocity opens, or with more stages than any free cone is known to need, what is left ends

@@ -125,13 +125,13 @@ private:
   Complementarity planned_;   ///< of the impulses that bring the pressed touches to rest and keep the others from approaching then
   Cholesky factor_;
   std::vector<int> all_, approaching_, bouncing_, candidates_, pressed_, others_, plan_, stopped_, independent_, held_;
-  std::vector<double> rates_;       ///< m/s, by touch: normal velocities
+  std::vector<double> rates_;          ///< m/s, by touch: normal velocities
   std::vector<double> accelerations_;  ///< m/s^2, by candidate touch: free accelerations of the gaps
-  std::vector<char> presses_;       ///< by candidate touch: whether its free acceleration presses by more than its rounding
-  std::vector<double> depth_;       ///< m, by touch: hops lower than four times this are left out
-  std::vector<double> rest_speed_;  ///< m/s, by touch: what is faster cannot be such a hop
-  std::vector<double> over_;        ///< by pressed touch: how far its hop would go, against what may be left out
-  std::vector<double> worst_;       ///< by member: the largest of these
+  std::vector<char> presses_;          ///< by candidate touch: whether its free acceleration presses by more than its rounding
+  std::vector<double> depth_;          ///< m, by touch: hops lower than four times this are left out
+  std::vector<double> rest_speed_;     ///< m/s, by touch: what is faster cannot be such a hop
+  std::vector<double> over_;           ///< by pressed touch: how far its hop would go, against what may be left out
+  std::vector<double> worst_;          ///< by member: the largest of these
   std::vector<double> row_, solution_, impulses_;
   std::vector<char> meets_;  ///< by touch: closed, or of a pair that is closed at another vertex
   /// Sums of the absolute values of what made up a member's velocity.
@@ -141,8 +141,7 @@ private:
   };
   std::vector<Size> sizes_;
   std::vector<Twist> changes_, velocities_, start_;  ///< by member
-  std::vector<double> speeds_;                         ///< m/s, by member: what the plan changes
-  bool first_plan_ = true;  ///< of this collision: no forces and impulses are known to start from
+  std::vector<double> speeds_;                       ///< m/s, by member: what the plan changes
   double acceleration_scale_ = 0.0, noise_ = 0.0, closed_ = 0.0;
 
   /// Workspace of isLocked.

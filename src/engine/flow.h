@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "body.h"
-#include "complementarity.h"
+#include "cholesky.h"
 #include "touch.h"
 
 namespace block_world
