@@ -97,15 +97,14 @@ bool exact(const CaseResults& results, const Result& ours)
   return true;
 }
 
-/// Ours with the tolerance as shipped, or where that is not exact enough, the coarsest finer one that is.
+/// Ours with the tolerance as shipped, or where that is not exact enough, the coarsest finer one that is. (Settings come from coarse to fine.)
 const Result& judged(const CaseResults& results)
 {
   const Result& shipped = results.results.front();
-  const Result* best = &shipped;
-  for (const Result& result : results.results)
-    if (result.engine == shipped.engine && result.setting.tolerance < shipped.setting.tolerance && !exact(results, *best))
-      best = &result;
-  return exact(results, *best) ? *best : shipped;
+  for (const Result* ours : resultsOf(results, shipped.engine))
+    if (ours->setting.tolerance <= shipped.setting.tolerance && exact(results, *ours))
+      return *ours;
+  return shipped;
 }
 }  // namespace
 
