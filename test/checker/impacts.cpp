@@ -163,7 +163,7 @@ void Replay::strike(RowRange rows)
 
 // Where a slow bounce is replaced by its limit, touches that open slowly are held as well, and what is listed stands
 // for the applied forces during the hops left out: it may pull, by no more than the speed of capture of all that moves,
-// for each touch. (Each may press with all weight, and the energies of their hops add up: so do the squares.) Some carry
+// for each hop. (Their energies add up: so do the squares.) Some touches carry
 // nothing once all are at rest, so that no row of a rest tells of them, but that they were slow.
 void Replay::checkSigns(const std::vector<const ContactRow*>& events)
 {
@@ -177,7 +177,8 @@ void Replay::checkSigns(const std::vector<const ContactRow*>& events)
       events.begin(), events.end(), [](const ContactRow* p, const ContactRow* q) { return p->impulse < q->impulse; });
   if (least.impulse < 0.0 && (captures || slow))
   {
-    const double most = std::max(relative_error, std::sqrt(static_cast<double>(events.size())) * captureImpulse());
+    const auto hops = std::count_if(events.begin(), events.end(), [](const ContactRow* row) { return row->impulse < 0.0; });
+    const double most = std::max(relative_error, std::sqrt(static_cast<double>(hops)) * captureImpulse());
     checks_.sign.add(pull(events, states_, most), most, least.time, least.a, least.b);
   }
   else
