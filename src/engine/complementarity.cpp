@@ -9,7 +9,7 @@ namespace block_world
 /// Memory for so many rows.
 void Complementarity::provide(std::size_t rows)
 {
-  room_.provide(rows, passive_, state_, l_, x_, residual_, row_, before_, l_before_, support_);
+  room_.provide(rows, passive_, state_, l_, x_, row_, before_, l_before_, support_);
 }
 
 void Complementarity::begin(const SymmetricMatrix& a)
@@ -85,38 +85,21 @@ void Complementarity::solvePassive(std::vector<double>& x)
   for (std::size_t k = 0; k < n; ++k)
     x[k] = -(*b_)[passive_[k]];
   factor_.solve(x.data());
-  if (factor_.doubtful())
-    improve(x);
 }
 
-/// One step of iterative refinement, x - A_PP^-1 (A_PP x + b_P).
-void Complementarity::improve(std::vector<double>& x)
-{
-  const std::size_t n = passive_.size();
-  residual_.resize(n);
-  for (std::size_t k = 0; k < n; ++k)
-  {
-    double sum = -(*b_)[passive_[k]];
-    const double* a = a_->row(passive_[k]);
-    for (std::size_t j = 0; j < n; ++j)
-      sum -= a[passive_[j]] * x[j];
-    residual_[k] = sum;
-  }
-  factor_.solve(residual_.data());
-  for (std::size_t k = 0; k < n; ++k)
-    x[k] += residual_[k];
-}
-
+/// One step of iterative refinement, l - A_PP^-1 (A_PP l + b_P).
 void Complementarity::refine()
 {
-  if (passive_.size() < 2)
+  const std::size_t n = passive_.size();
+  if (n < 2)
     return;
-  x_.resize(passive_.size());
-  for (std::size_t k = 0; k < passive_.size(); ++k)
-    x_[k] = l_[passive_[k]];
-  improve(x_);
-  for (std::size_t k = 0; k < passive_.size(); ++k)
-    l_[passive_[k]] = std::max(0.0, x_[k]);
+  x_.resize(n);
+  double magnitude;
+  for (std::size_t k = 0; k < n; ++k)
+    x_[k] = gradient(passive_[k], magnitude);
+  factor_.solve(x_.data());
+  for (std::size_t k = 0; k < n; ++k)
+    l_[passive_[k]] = std::max(0.0, l_[passive_[k]] - x_[k]);
 }
 
 /// The row at that position is passive no longer.

@@ -65,7 +65,6 @@ private:
   void undo(int entered);
   void refactor(int from);
   void solvePassive(std::vector<double>& x);
-  void improve(std::vector<double>& x);
   bool factorRow(int position, int row, double share = kDependent);
 
   Room room_;
@@ -74,7 +73,7 @@ private:
   Cholesky factor_;
   std::vector<int> passive_;
   std::vector<State> state_;
-  std::vector<double> l_, x_, residual_, row_;
+  std::vector<double> l_, x_, row_;
   std::vector<int> before_;  ///< the passive rows before one entered
   std::vector<double> l_before_;
   bool kept_ = false;  ///< whether these two are known
