@@ -44,7 +44,6 @@ void Cholesky::provide(int size)
   first_.resize(most);
   z_.reserve(most);
   rotations_.reserve(most);
-  doubtful_.reserve(most);
 }
 
 bool Cholesky::append(const double* entries, double share)
@@ -69,8 +68,7 @@ bool Cholesky::append(const double* entries, double share)
   const bool doubtful = pivot < kDoubtful * entries[n];
   if (!(pivot > share * std::max(entries[n], doubtful ? heaviest(l) : 0.0)))
     return false;
-  if (doubtful)
-    doubtful_.push_back(n);
+  doubtful_ = doubtful_ || doubtful;
   l[n] = std::sqrt(pivot);
   first_[n] = start;
   ++size_;
@@ -104,9 +102,6 @@ void Cholesky::remove(int which)
     to[i] = length;
   }
   --size_;
-  doubtful_.erase(std::remove(doubtful_.begin(), doubtful_.end(), which), doubtful_.end());
-  for (int& row : doubtful_)
-    row -= row > which;
 }
 
 void Cholesky::solve(double* x) const

@@ -21,7 +21,8 @@ public:
   }
   void clear()
   {
-    truncate(0);
+    size_ = 0;
+    doubtful_ = false;
   }
   int size() const
   {
@@ -36,13 +37,11 @@ public:
   void truncate(int size)
   {
     size_ = size;
-    while (!doubtful_.empty() && doubtful_.back() >= size)
-      doubtful_.pop_back();
   }
-  /// Whether some row depends on the former ones so nearly that digits of x are lost.
+  /// Whether some row since the last clear() depends on the former ones so nearly that digits of x are lost.
   bool doubtful() const
   {
-    return !doubtful_.empty();
+    return doubtful_;
   }
   /// x = (L L^T)^-1 x.
   void solve(double* x) const;
@@ -69,8 +68,8 @@ private:
   std::vector<double> lower_;  ///< rows of the lower triangle, one after the other
   std::vector<double> z_;
   std::vector<Rotation> rotations_;
-  std::vector<int> first_;     ///< by row: its first entry that is not zero
-  std::vector<int> doubtful_;  ///< rows with small pivots
+  std::vector<int> first_;  ///< by row: its first entry that is not zero
+  bool doubtful_ = false;
 };
 
 /// Dense symmetric matrix that keeps its memory.
