@@ -286,6 +286,22 @@ TEST(ContactGroup, SlowOnesArePressedOrReflected)
   }
 }
 
+TEST(ContactGroup, WhatIsLeftOutLetsOthersRest)
+{
+  // A light block hops at .9 of the capture speed s = sqrt(8 g tolerance), a heavy one on it at 1.8. To rest together the heavy one would take
+  // (1.8 s)^2 / 8g = 3.24 tolerances, against the one allowed, and the light one under it, with the impulse and the load of both,
+  // (.9 + 9 * 1.8) / 10 * .9 = 1.54; but alone only .9^2 = .81. So the heavy one goes on, and the light one rests.
+  const double g = 9.81, u = 0.9 * std::sqrt(8.0 * g * 1e-6);
+  ContactGroup group = groupOf({ wall(Vec2(0.0, 1.0), 0.0), boxAt(1.0, 0.5, Vec2(0.0, 0.25), Vec2(0.0, u), 1.0, 0.5, Vec2(0.0, -g)),
+                                 boxAt(1.0, 0.5, Vec2(0.0, 0.75), Vec2(0.0, 2.0 * u), 9.0, 0.5, Vec2(0.0, -g)) });
+  ASSERT_EQ(group.touches.size(), 4u);
+  EXPECT_NEAR(group.collide(ContactScales()), 0.5 * u * u, 1e-15);
+  EXPECT_EQ(group.members[1].velocity.y(), 0.0);
+  EXPECT_EQ(group.members[2].velocity.y(), 2.0 * u);
+  for (const Touch& t : group.touches)
+    EXPECT_EQ(t.active, t.a == 0 || t.b == 0);
+}
+
 TEST(ContactGroup, SettlingClosesGaps)
 {
   // 3e-7 above the floor, turned by 1e-7: both corners down to the floor.
