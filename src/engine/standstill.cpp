@@ -118,20 +118,13 @@ void ContactGroup::projectOut(const std::vector<int>& rows)
   const int rank = static_cast<int>(qr.rank());
   Eigen::VectorXd along = qr.householderQ().transpose() * velocity;
   along.tail(size - rank).setZero();
-  const Eigen::VectorXd taken = -(qr.householderQ() * along), change = weight.cwiseProduct(taken);
-
-  // The impulses that do it: on short levers large ones that balance, so from what the first leave once more.
-  Eigen::VectorXd impulses = Eigen::VectorXd::Zero(count), left = taken;
-  for (int pass = 0; pass < 2; ++pass)
+  const Eigen::VectorXd change = -weight.cwiseProduct(qr.householderQ() * along);
+  const Eigen::VectorXd impulses = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(-along.head(rank));
+  for (int k = 0; k < rank; ++k)
   {
-    along = qr.householderQ().transpose() * left;
-    const Eigen::VectorXd more = qr.matrixR().topLeftCorner(rank, rank).triangularView<Eigen::Upper>().solve(along.head(rank));
-    for (int k = 0; k < rank; ++k)
-      impulses[qr.colsPermutation().indices()[k]] += more[k];
-    left = taken - columns * impulses;
+    const int row = qr.colsPermutation().indices()[k];
+    touches[rows[row]].capture += impulses[k] / norm[row];
   }
-  for (int k = 0; k < count; ++k)
-    touches[rows[k]].capture += impulses[k] / norm[k];
   for (std::size_t i = 0; i < members.size(); ++i)
   {
     members[i].velocity += change.segment<2>(3 * i);
