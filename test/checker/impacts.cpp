@@ -163,8 +163,8 @@ void Replay::strike(RowRange rows)
 
 // Where a slow bounce is replaced by its limit, touches that open slowly are held as well, and what is listed stands
 // for the applied forces during the hops left out: it may pull, by no more than the speed of capture of all that moves,
-// for each hop. (Their energies add up: so do the squares.) Some touches carry
-// nothing once all are at rest, so that no row of a rest tells of them, but that they were slow.
+// for each hop. (Their energies add up: so do the squares.) Some touches carry nothing once all are at rest, so that no
+// row of a rest tells of them, but that they were slow.
 void Replay::checkSigns(const std::vector<const ContactRow*>& events)
 {
   const bool captures = std::any_of(events.begin(), events.end(), [&](const ContactRow* row) {
